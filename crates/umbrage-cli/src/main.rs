@@ -1,0 +1,2 @@
+//! The `umbrage` command.
+fn main() {}

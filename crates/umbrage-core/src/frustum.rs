@@ -1,0 +1,166 @@
+//! View volumes as planes: culling of boxes, and the part of a box that is inside.
+
+use crate::bounds::Bounds;
+use glam::{DMat4, DVec3, DVec4};
+
+/// The planes of a clip volume. A point p is inside where `plane · (p, 1) ≥ 0` for all of them.
+#[derive(Clone, Debug)]
+pub struct Frustum {
+    /// Unit normals with the offset in `w`. An infinite far plane is left out.
+    pub planes: Vec<DVec4>,
+}
+
+impl Frustum {
+    /// The volume of WebGPU's clip space (x, y in [−w, w], z in [0, w]) seen from the space `clip_from` starts in.
+    pub fn of(clip_from: &DMat4) -> Self {
+        let row = |i: usize| clip_from.row(i);
+        let w = row(3);
+        let planes = [w + row(0), w - row(0), w + row(1), w - row(1), row(2), w - row(2)]
+            .into_iter()
+            .filter_map(|p| {
+                let length = p.truncate().length();
+                (length > 1e-12 * p.abs().max_element()).then(|| p / length)
+            })
+            .collect();
+        Self { planes }
+    }
+
+    /// False only where the box is surely outside.
+    pub fn may_see(&self, bounds: &Bounds) -> bool {
+        if bounds.is_empty() {
+            return false;
+        }
+        let (center, half) = (bounds.center(), bounds.size() * 0.5);
+        self.planes.iter().all(|p| {
+            let normal = p.truncate();
+            normal.dot(center) + p.w + normal.abs().dot(half) >= 0.0
+        })
+    }
+
+    /// True where the whole box is inside.
+    pub fn holds(&self, bounds: &Bounds) -> bool {
+        let (center, half) = (bounds.center(), bounds.size() * 0.5);
+        self.planes.iter().all(|p| {
+            let normal = p.truncate();
+            normal.dot(center) + p.w - normal.abs().dot(half) >= 0.0
+        })
+    }
+
+    /// Appends the corners of box ∩ frustum, a convex body, to `points`.
+    ///
+    /// Corners may come more than once. Nothing is appended where the intersection is empty.
+    pub fn clip_box(&self, bounds: &Bounds, points: &mut Vec<DVec3>) {
+        if !self.may_see(bounds) {
+            return;
+        }
+        if self.holds(bounds) {
+            points.extend(bounds.corners());
+            return;
+        }
+        // The faces of the box, cut by every plane; and the edges of the frustum, cut by the box, come out of the
+        // same polygons only where they lie in a face, so the frustum's own corners inside the box are added too.
+        let c = bounds.corners();
+        const FACES: [[usize; 4]; 6] =
+            [[0, 2, 6, 4], [1, 5, 7, 3], [0, 4, 5, 1], [2, 3, 7, 6], [0, 1, 3, 2], [4, 6, 7, 5]];
+        for face in FACES {
+            let mut polygon = face.map(|i| c[i]).to_vec();
+            for plane in &self.planes {
+                polygon = clip_polygon(&polygon, *plane);
+            }
+            points.extend(polygon);
+        }
+        let inside = bounds.grown(1e-9 * bounds.size().max_element());
+        points.extend(self.corners().into_iter().filter(|p| p.cmpge(inside.min).all() && p.cmple(inside.max).all()));
+    }
+
+    /// The points where three planes meet inside the volume: eight, or four for an infinite far plane.
+    pub fn corners(&self) -> Vec<DVec3> {
+        let mut corners = Vec::new();
+        let n = self.planes.len();
+        for i in 0..n {
+            for j in i + 1..n {
+                for k in j + 1..n {
+                    let [a, b, c] = [self.planes[i], self.planes[j], self.planes[k]];
+                    let (na, nb, nc) = (a.truncate(), b.truncate(), c.truncate());
+                    let det = na.dot(nb.cross(nc));
+                    if det.abs() < 1e-12 {
+                        continue;
+                    }
+                    let p = -(nb.cross(nc) * a.w + nc.cross(na) * b.w + na.cross(nb) * c.w) / det;
+                    let slack = 1e-9 * (1.0 + p.abs().max_element());
+                    if self.planes.iter().all(|q| q.truncate().dot(p) + q.w >= -slack) {
+                        corners.push(p);
+                    }
+                }
+            }
+        }
+        corners
+    }
+}
+
+/// The part of a convex polygon on the inner side of `plane` (Sutherland–Hodgman).
+pub fn clip_polygon(polygon: &[DVec3], plane: DVec4) -> Vec<DVec3> {
+    let side = |p: DVec3| plane.truncate().dot(p) + plane.w;
+    let mut out = Vec::with_capacity(polygon.len() + 1);
+    for (i, &a) in polygon.iter().enumerate() {
+        let b = polygon[(i + 1) % polygon.len()];
+        let (da, db) = (side(a), side(b));
+        if da >= 0.0 {
+            out.push(a);
+        }
+        if (da >= 0.0) != (db >= 0.0) {
+            out.push(a + (b - a) * (da / (da - db)));
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Camera;
+
+    fn frustum() -> Frustum {
+        let c = Camera { eye: DVec3::ZERO, target: DVec3::NEG_Z, fov_y_deg: 90.0, near: 1.0, ..Camera::default() };
+        Frustum::of(&c.view(100, 100).clip_from_world())
+    }
+
+    #[test]
+    fn an_infinite_frustum_has_five_planes_and_four_corners() {
+        let f = frustum();
+        assert_eq!(f.planes.len(), 5);
+        let corners = f.corners();
+        assert_eq!(corners.len(), 4);
+        assert!(corners.iter().all(|c| (c.z + 1.0).abs() < 1e-9 && (c.x.abs() - 1.0).abs() < 1e-9));
+    }
+
+    #[test]
+    fn boxes_are_told_apart() {
+        let f = frustum();
+        let at = |z: f64, r: f64| Bounds { min: DVec3::new(-r, -r, z - r), max: DVec3::new(r, r, z + r) };
+        assert!(f.holds(&at(-10.0, 1.0)));
+        assert!(f.may_see(&at(-10.0, 100.0)) && !f.holds(&at(-10.0, 100.0)));
+        assert!(!f.may_see(&at(10.0, 1.0)));
+        assert!(!f.may_see(&Bounds::EMPTY));
+    }
+
+    #[test]
+    fn a_clipped_box_is_the_intersection() {
+        // A slab that reaches far to both sides: cut to |x|, |y| ≤ 5 at z = −5 and 10 at z = −10.
+        let slab = Bounds { min: DVec3::new(-1e3, -1e3, -10.0), max: DVec3::new(1e3, 1e3, -5.0) };
+        let mut points = Vec::new();
+        frustum().clip_box(&slab, &mut points);
+        let b = Bounds::of(points);
+        assert!((b.min - DVec3::new(-10.0, -10.0, -10.0)).length() < 1e-6, "{b:?}");
+        assert!((b.max - DVec3::new(10.0, 10.0, -5.0)).length() < 1e-6, "{b:?}");
+    }
+
+    #[test]
+    fn a_box_around_the_eye_keeps_the_near_plane() {
+        let around = Bounds { min: DVec3::splat(-4.0), max: DVec3::splat(4.0) };
+        let mut points = Vec::new();
+        frustum().clip_box(&around, &mut points);
+        let b = Bounds::of(points);
+        assert!((b.max.z + 1.0).abs() < 1e-9 && (b.min.z + 4.0).abs() < 1e-9, "{b:?}");
+    }
+}

@@ -1,0 +1,38 @@
+//! Pure data and maths of umbrage: no file, no GPU, no clock.
+//!
+//! # Conventions
+//!
+//! | thing | convention |
+//! |---|---|
+//! | handedness, up | right-handed, +Y up |
+//! | lengths, angles | metres; degrees where a name ends in `_deg`, else radians |
+//! | colours | linear RGB |
+//! | matrices | column vectors; `b_from_a` takes a point from space `a` to space `b` |
+//! | precision | placement (camera, instances, lights) in `f64`, vertices within a mesh in `f32` |
+//! | depth | reversed: 1 at the near plane, 0 at infinity |
+//! | winding | counter-clockwise is the front |
+
+pub mod bounds;
+pub mod camera;
+pub mod frustum;
+pub mod image;
+pub mod light;
+pub mod light_view;
+pub mod material;
+pub mod mesh;
+pub mod mesh_check;
+pub mod primitive;
+pub mod sampling;
+pub mod scene;
+pub mod scenes;
+
+pub use bounds::Bounds;
+pub use camera::{Camera, CameraView};
+pub use frustum::Frustum;
+pub use image::Image;
+pub use light::{Light, LightKind, LightKinds, LightShape};
+pub use material::{Material, Texture};
+pub use mesh::Mesh;
+pub use scene::{Instance, Scene};
+
+pub use glam;

@@ -1,0 +1,1 @@
+//! Light-space fits: the views that a map technique renders.

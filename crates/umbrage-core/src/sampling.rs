@@ -1,0 +1,1 @@
+//! Low-discrepancy points, and points of every light shape.

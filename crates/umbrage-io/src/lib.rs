@@ -1,0 +1,1 @@
+//! Scene files, glTF and OBJ in; PNG, EXR and HDR pictures in and out.

@@ -1,0 +1,1 @@
+//! Ray-traced ground truth: the visibility of every kind of light on the CPU.

@@ -1,0 +1,1 @@
+//! Runs scenes, techniques and lights against the ground truth; records, tables, JSON, CSV and HTML.

@@ -1,0 +1,1 @@
+//! Real-time shadows on wgpu: every technique behind one interface.
