@@ -1,1 +1,0 @@
-//! Low-discrepancy points, and points of every light shape.

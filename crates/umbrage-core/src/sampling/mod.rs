@@ -1,0 +1,14 @@
+//! Low-discrepancy points, and points of every light shape.
+//!
+//! [`LightSampler`] gives the points that one receiver sees a light through, as the definition of visibility has them;
+//! the plain mean of "is this point seen?" over [`lattice`] points is the visibility. [`hard_lights`] replaces a soft
+//! light by many hard ones for all receivers at once.
+
+mod hard_lights;
+mod light_sampler;
+mod luminance;
+mod points;
+
+pub use hard_lights::hard_lights;
+pub use light_sampler::{LightFrom, LightSampler};
+pub use points::{lattice, rotated, shift, square_to_disc};
