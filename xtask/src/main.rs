@@ -1,2 +1,33 @@
-//! `cargo xtask`.
-fn main() {}
+//! `cargo xtask`: the workspace's own chores. Each does its set-up itself, so that a fresh clone needs Rust and git only.
+
+mod bench;
+mod demo;
+mod setup;
+mod shell;
+mod test;
+
+use anyhow::{Result, bail};
+
+const USAGE: &str = "\
+cargo xtask COMMAND
+
+  setup   find a usable graphics adapter; where there is none, install Mesa's software Vulkan driver (Debian, Ubuntu)
+  demo    compare the techniques on a few built-in scenes; ends in a table and out/demo/index.html
+  test    run the whole test suite
+  bench   measure the standard set of scenes and write benchmarks/<date>-<machine>/";
+
+fn main() -> Result<()> {
+    std::env::set_current_dir(shell::workspace_root()?)?;
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+        ["setup"] => setup::run(shell::Profile::Dev),
+        ["demo"] => demo::run(),
+        ["test", rest @ ..] => test::run(rest),
+        ["bench"] => bench::run(),
+        [] | ["help" | "-h" | "--help"] => {
+            println!("{USAGE}");
+            Ok(())
+        }
+        other => bail!("there is no `cargo xtask {}`\n\n{USAGE}", other.join(" ")),
+    }
+}

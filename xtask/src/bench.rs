@@ -1,0 +1,98 @@
+//! Measures the standard set of scenes and files the numbers with date, machine, driver, commit and command.
+
+use crate::{
+    setup,
+    shell::{self, Profile},
+};
+use anyhow::{Context, Result};
+use serde_json::Value;
+use std::{fs, path::PathBuf};
+
+/// Scenes that need no file.
+const BUILT_IN: [&str; 4] = ["primitives", "atrium:0.25", "city", "terrain"];
+const FRAMES: &str = "60";
+const SIZE: &str = "1024x768";
+
+/// Runs the benchmark and writes `benchmarks/<date>-<machine>/`.
+pub fn run() -> Result<()> {
+    setup::run(Profile::Release)?;
+    let shared = shared_scenes();
+    let mut arguments = vec!["bench"];
+    arguments.extend(BUILT_IN);
+    arguments.extend(shared.iter().map(String::as_str));
+    arguments.extend(["--techniques", "all", "--frames", FRAMES, "--size", SIZE, "--json"]);
+    let text = shell::output(shell::umbrage(Profile::Release, &arguments))?;
+    let json: Value = serde_json::from_str(&text).context("`umbrage bench --json` printed no JSON")?;
+
+    let made = &json["made"];
+    let word = |v: &Value| v.as_str().unwrap_or("unknown").to_string();
+    let day = word(&made["date"]).chars().take(10).collect::<String>();
+    let folder = PathBuf::from("benchmarks").join(format!("{day}-{}", slug(&word(&made["adapter"]["name"]))));
+    fs::create_dir_all(&folder).with_context(|| format!("can't make {}", folder.display()))?;
+    let write = |name: &str, text: &str| {
+        let path = folder.join(name);
+        fs::write(&path, text).with_context(|| format!("can't write {}", path.display()))
+    };
+    write("bench.json", &text)?;
+    if !folder.join("README.md").exists() {
+        write("README.md", &readme(made, &day))?;
+    }
+    println!("wrote {}", folder.display());
+    Ok(())
+}
+
+/// Scene files `peer-*.scene.toml` of the optional reference data, where it is there.
+fn shared_scenes() -> Vec<String> {
+    let root = std::env::var_os("UMBRAGE_SHARED").map_or_else(|| PathBuf::from("../shared"), PathBuf::from);
+    let Ok(entries) = fs::read_dir(root.join("scenes")) else {
+        println!("no shared scenes in {}: the built-in ones only", root.display());
+        return Vec::new();
+    };
+    let mut paths: Vec<String> = entries
+        .flatten()
+        .filter(|e| e.file_name().to_string_lossy().starts_with("peer-"))
+        .map(|e| e.path().to_string_lossy().into_owned())
+        .collect();
+    paths.sort();
+    paths
+}
+
+fn slug(name: &str) -> String {
+    let plain: String =
+        name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { ' ' }).collect();
+    plain.split_whitespace().take(4).collect::<Vec<_>>().join("-")
+}
+
+fn readme(made: &Value, day: &str) -> String {
+    let word = |v: &Value| v.as_str().unwrap_or("unknown").to_string();
+    let (machine, adapter) = (&made["machine"], &made["adapter"]);
+    format!(
+        "# Benchmark of {day}\n\n\
+         | | |\n|---|---|\n\
+         | machine | {}, {} cores, {} |\n\
+         | adapter | {} ({}, {}) |\n\
+         | driver | {} |\n\
+         | commit | {} |\n\
+         | command | `cargo xtask bench` |\n\n\
+         Raw numbers: `bench.json`. Times are medians of {FRAMES} frames at {SIZE}, runs interleaved.\n\n\
+         ## What the numbers say\n",
+        word(&machine["cpu"]),
+        machine["cores"],
+        word(&machine["os"]),
+        word(&adapter["name"]),
+        word(&adapter["backend"]),
+        word(&adapter["kind"]),
+        word(&adapter["driver"]),
+        word(&made["commit"]),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_name_is_plain() {
+        assert_eq!(slug("llvmpipe (LLVM 15.0.6, 256 bits)"), "llvmpipe-llvm-15-0");
+    }
+}

@@ -1,0 +1,73 @@
+//! Finds a usable graphics adapter, or installs a software one where that is a matter of one command.
+
+use crate::shell::{self, Profile};
+use anyhow::{Context, Result, bail};
+use serde_json::Value;
+use std::{fs, path::Path, process::Command};
+
+/// Ends with a usable adapter, or with an error that says what to install.
+pub fn run(profile: Profile) -> Result<()> {
+    shell::build(profile)?;
+    if let Some(names) = adapters(profile)? {
+        println!("graphics adapters: {names}");
+        return Ok(());
+    }
+    if !is_debian() {
+        bail!("no usable graphics adapter: {}", remedy());
+    }
+    println!("no usable graphics adapter: installing Mesa's software Vulkan driver");
+    shell::run(apt(&["update"]))?;
+    shell::run(apt(&["install", "--yes", "--no-install-recommends", "mesa-vulkan-drivers", "libvulkan1"]))?;
+    let names = adapters(profile)?.context("Mesa is installed, yet there is still no usable graphics adapter")?;
+    println!("graphics adapters: {names}");
+    Ok(())
+}
+
+/// Names of the adapters that `umbrage` sees; `None` where there is none.
+fn adapters(profile: Profile) -> Result<Option<String>> {
+    let json: Value = serde_json::from_str(&shell::output(shell::umbrage(profile, &["list", "--json"]))?)
+        .context("`umbrage list --json` printed no JSON")?;
+    let list = json["adapters"].as_array().context("`umbrage list --json` has no list of adapters")?;
+    let name = |a: &Value| format!("{} ({})", a["name"].as_str().unwrap_or("?"), a["kind"].as_str().unwrap_or("?"));
+    Ok((!list.is_empty()).then(|| list.iter().map(name).collect::<Vec<_>>().join(", ")))
+}
+
+/// True on Debian, Ubuntu and what derives from them.
+fn is_debian() -> bool {
+    Path::new("/etc/debian_version").exists() && Path::new("/usr/bin/apt-get").exists()
+}
+
+/// `apt-get`, as root.
+fn apt(arguments: &[&str]) -> Command {
+    // The owner of one's own process folder is who one is.
+    let root = fs::metadata("/proc/self").is_ok_and(|m| owner(&m) == 0);
+    let mut command = Command::new(if root { "apt-get" } else { "sudo" });
+    if !root {
+        command.arg("apt-get");
+    }
+    command.args(arguments).env("DEBIAN_FRONTEND", "noninteractive");
+    command
+}
+
+#[cfg(unix)]
+fn owner(metadata: &fs::Metadata) -> u32 {
+    std::os::unix::fs::MetadataExt::uid(metadata)
+}
+
+#[cfg(not(unix))]
+fn owner(_: &fs::Metadata) -> u32 {
+    u32::MAX
+}
+
+fn remedy() -> &'static str {
+    if cfg!(target_os = "linux") {
+        "install a Vulkan driver and loader (Fedora: mesa-vulkan-drivers vulkan-loader; Arch: vulkan-swrast; \
+         openSUSE: libvulkan_lvp), then run this again"
+    } else if cfg!(target_os = "windows") {
+        "install your graphics card's driver (DirectX 12 or Vulkan), then run this again"
+    } else if cfg!(target_os = "macos") {
+        "Metal needs macOS 10.15 or newer on a Mac with a Metal graphics processor"
+    } else {
+        "install a Vulkan driver for this system, then run this again"
+    }
+}

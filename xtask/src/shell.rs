@@ -1,0 +1,78 @@
+//! Running other programs, shown before they run.
+
+use anyhow::{Context, Result, bail};
+use std::{
+    path::PathBuf,
+    process::{Command, Stdio},
+};
+
+/// How the `umbrage` command is built.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Profile {
+    /// As the tests build it.
+    Dev,
+    /// For measuring.
+    Release,
+}
+
+/// The folder of the workspace's `Cargo.toml`.
+pub fn workspace_root() -> Result<PathBuf> {
+    let here = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").context("run this as `cargo xtask`")?);
+    here.parent().map(PathBuf::from).context("xtask lies in no folder")
+}
+
+/// The cargo that runs us.
+pub fn cargo() -> Command {
+    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+}
+
+/// The `umbrage` command, built first where it is out of date.
+pub fn umbrage(profile: Profile, arguments: &[&str]) -> Command {
+    let mut command = cargo();
+    command.args(["run", "--quiet", "--package", "umbrage-cli"]);
+    if profile == Profile::Release {
+        command.arg("--release");
+    }
+    command.arg("--").args(arguments);
+    command
+}
+
+/// Builds the `umbrage` command with cargo's own progress on view.
+pub fn build(profile: Profile) -> Result<()> {
+    let mut command = cargo();
+    command.args(["build", "--package", "umbrage-cli"]);
+    if profile == Profile::Release {
+        command.arg("--release");
+    }
+    run(command)
+}
+
+/// Prints the command, runs it, and fails where it fails.
+pub fn run(mut command: Command) -> Result<()> {
+    let line = text(&command);
+    eprintln!("$ {line}");
+    let status = command.status().with_context(|| format!("can't run `{line}`"))?;
+    if !status.success() {
+        bail!("`{line}` failed ({status})");
+    }
+    Ok(())
+}
+
+/// Runs the command and returns what it printed; its complaints pass through.
+pub fn output(mut command: Command) -> Result<String> {
+    let line = text(&command);
+    eprintln!("$ {line}");
+    let output = command.stderr(Stdio::inherit()).output().with_context(|| format!("can't run `{line}`"))?;
+    if !output.status.success() {
+        bail!("`{line}` failed ({})", output.status);
+    }
+    String::from_utf8(output.stdout).with_context(|| format!("`{line}` printed no UTF-8"))
+}
+
+/// The command as one would type it.
+fn text(command: &Command) -> String {
+    let program = command.get_program().to_string_lossy().into_owned();
+    let name = program.rsplit(['/', '\\']).next().unwrap_or_default().to_string();
+    let words = command.get_args().map(|a| a.to_string_lossy().into_owned());
+    std::iter::once(name).chain(words).collect::<Vec<_>>().join(" ")
+}
