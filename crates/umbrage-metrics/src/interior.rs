@@ -18,7 +18,7 @@ pub fn interior(reference: &Image<f32>, mask: &Image<bool>, reach: Option<&Image
     let largest = reference.width.max(reference.height);
     let radius = |x: u32, y: u32| {
         let pixels = reach.and_then(|r| r.get(x.into(), y.into())).map_or(REACH_PIXELS, |r| r.max(REACH_PIXELS));
-        (pixels.ceil() as u32).min(largest)
+        (pixels.ceil() as u32).min(largest.max(REACH_PIXELS as u32))
     };
     let scored = |x: u32, y: u32| mask.get(x.into(), y.into()) == Some(&true);
     let (width, height) = reference.size();
