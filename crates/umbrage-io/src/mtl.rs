@@ -1,0 +1,182 @@
+//! MTL, the material libraries of OBJ files.
+//!
+//! Kd → base colour; luminance of Ks → specular; Ns → shininess; Ke → emissive; map_Kd → texture. map_d, or a map_Kd
+//! with transparent pixels, is an alpha mask at one half. A plain `d` or `Tr` below 1 is noted: shadows are those of
+//! the opaque surface. (Source: Wavefront, "MTL material format", version 4.2.)
+
+use crate::error::{self, Error};
+use crate::lines::{self, Line};
+use crate::pictures;
+use glam::Vec3;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use umbrage_core::{Material, Texture};
+
+/// The alpha below which a masked surface is absent.
+const ALPHA_CUTOFF: f32 = 0.5;
+
+/// The materials of one or several libraries, with their pictures.
+#[derive(Debug, Default)]
+pub(crate) struct Library {
+    pub materials: Vec<Material>,
+    pub textures: Vec<Texture>,
+    /// Index into `materials` by name.
+    pub by_name: HashMap<String, usize>,
+    pub notes: Vec<String>,
+    /// Index into `textures` by base-colour and mask file.
+    texture_by_files: HashMap<[Option<PathBuf>; 2], usize>,
+}
+
+/// A material as written, before its pictures are read.
+#[derive(Default)]
+struct Entry {
+    name: String,
+    line: usize,
+    diffuse: Option<Vec3>,
+    specular: f32,
+    shininess: Option<f32>,
+    emissive: Vec3,
+    opacity: Option<f32>,
+    diffuse_map: Option<PathBuf>,
+    opacity_map: Option<PathBuf>,
+}
+
+impl Library {
+    /// Adds the materials of a file.
+    pub fn read(&mut self, file: &Path) -> Result<(), Error> {
+        let bytes = error::read(file)?;
+        let dir = file.parent().unwrap_or(Path::new(""));
+        let mut entries: Vec<Entry> = Vec::new();
+        lines::for_each(file, &String::from_utf8_lossy(&bytes), |line| {
+            if line.keyword == "newmtl" {
+                entries.push(Entry { name: line.rest.to_owned(), line: line.number, ..Entry::default() });
+                return Ok(());
+            }
+            match entries.last_mut() {
+                Some(entry) => read_line(entry, &line, dir, &mut self.notes),
+                None => Ok(()),
+            }
+        })?;
+        for entry in entries {
+            let at = |e: Error| Error {
+                remedy: e.remedy.or_else(|| Some(format!("it is named by {}:{}", file.display(), entry.line))),
+                ..e
+            };
+            let material = self.material(&entry).map_err(at)?;
+            self.by_name.insert(entry.name, self.materials.len());
+            self.materials.push(material);
+        }
+        Ok(())
+    }
+
+    fn material(&mut self, entry: &Entry) -> Result<Material, Error> {
+        let texture = self.texture(entry)?;
+        let default = Material::default();
+        let plain = if texture.is_some() { Vec3::ONE } else { default.base_color.truncate() };
+        let masked = texture.is_some_and(|t| self.textures[t].rgba.iter().any(|p| p[3] < 255));
+        if let Some(opacity) = entry.opacity.filter(|o| *o < 1.0 && !masked) {
+            self.notes.push(format!(
+                "material `{}` is {:.0} % opaque: its shadow is that of an opaque surface",
+                entry.name,
+                opacity * 100.0
+            ));
+        }
+        Ok(Material {
+            base_color: entry.diffuse.unwrap_or(plain).extend(1.0),
+            texture,
+            specular: entry.specular,
+            shininess: entry.shininess.unwrap_or(default.shininess),
+            emissive: entry.emissive,
+            alpha_cutoff: masked.then_some(ALPHA_CUTOFF),
+        })
+    }
+
+    /// The picture of a material, with the mask of map_d as its alpha.
+    fn texture(&mut self, entry: &Entry) -> Result<Option<usize>, Error> {
+        let files = [entry.diffuse_map.clone(), entry.opacity_map.clone()];
+        if let Some(&index) = self.texture_by_files.get(&files) {
+            return Ok(Some(index));
+        }
+        let texture = match &files {
+            [None, None] => return Ok(None),
+            [Some(color), None] => pictures::load_texture(color)?,
+            [None, Some(mask)] => {
+                let mask = pictures::load_texture(mask)?;
+                let white = Texture { rgba: vec![[255; 4]; mask.rgba.len()], ..mask.clone() };
+                with_mask(white, &mask)
+            }
+            [Some(color), Some(mask)] => with_mask(pictures::load_texture(color)?, &pictures::load_texture(mask)?),
+        };
+        self.textures.push(texture);
+        self.texture_by_files.insert(files, self.textures.len() - 1);
+        Ok(Some(self.textures.len() - 1))
+    }
+}
+
+fn read_line(entry: &mut Entry, line: &Line<'_>, dir: &Path, notes: &mut Vec<String>) -> Result<(), Error> {
+    let color = || line.numbers().map(|c| Vec3::from(c).max(Vec3::ZERO));
+    let share = || line.numbers().map(|[d]| d.clamp(0.0, 1.0));
+    match line.keyword {
+        "Kd" => entry.diffuse = Some(color()?),
+        "Ks" => entry.specular = color()?.dot(Vec3::new(0.2126, 0.7152, 0.0722)),
+        "Ke" => entry.emissive = color()?,
+        // Exponents of 0 are common for surfaces without a highlight; the lighting model wants them over 0.
+        "Ns" => entry.shininess = Some(line.numbers().map(|[n]| n.max(1.0))?),
+        // `d -halo factor` depends on the angle of sight; its factor is not an opacity.
+        "d" if !line.rest.starts_with('-') => entry.opacity = Some(share()?),
+        "Tr" => entry.opacity = Some(1.0 - share()?),
+        "map_Kd" => entry.diffuse_map = Some(map_file(line, dir, notes)?),
+        "map_d" => entry.opacity_map = Some(map_file(line, dir, notes)?),
+        _ => {}
+    }
+    Ok(())
+}
+
+/// The file of a map: what is left of the line after its options.
+fn map_file(line: &Line<'_>, dir: &Path, notes: &mut Vec<String>) -> Result<PathBuf, Error> {
+    let mut rest = line.rest;
+    let next = |rest: &mut &str| {
+        let (word, after) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
+        let word = word.to_owned();
+        *rest = after.trim_start();
+        word
+    };
+    while rest.starts_with('-') {
+        let option = next(&mut rest);
+        let (fixed, numbers) = match option.as_str() {
+            "-mm" => (2, 0),
+            // Two of their three numbers may be left out.
+            "-o" | "-s" | "-t" => (1, 2),
+            _ => (1, 0),
+        };
+        (0..fixed).for_each(|_| drop(next(&mut rest)));
+        for _ in 0..numbers {
+            if rest.split_whitespace().next().is_some_and(|w| w.parse::<f32>().is_ok()) {
+                next(&mut rest);
+            }
+        }
+        notes.push(format!("{}:{}: `{option}` was left out", line.file.display(), line.number));
+    }
+    if rest.is_empty() {
+        return Err(line.error(format!("`{}` names no file", line.keyword)).remedy("name one, or remove the line"));
+    }
+    Ok(dir.join(rest.replace('\\', "/")))
+}
+
+/// `color` with the alpha of `mask`, or with its brightness where the mask is opaque all over.
+fn with_mask(mut color: Texture, mask: &Texture) -> Texture {
+    let has_alpha = mask.rgba.iter().any(|p| p[3] < 255);
+    let value = |x: u32, y: u32| {
+        // The mask may be of another size: its nearest pixel.
+        let scaled = |i: u32, from: u32, to: u32| (u64::from(i) * u64::from(to) / u64::from(from)) as usize;
+        let (i, j) = (scaled(x, color.width, mask.width), scaled(y, color.height, mask.height));
+        let [r, g, b, a] = mask.rgba[j * mask.width as usize + i];
+        let brightness = (u32::from(r) + u32::from(g) + u32::from(b)) / 3;
+        if has_alpha { a } else { brightness as u8 }
+    };
+    let alpha: Vec<u8> = (0..color.height).flat_map(|y| (0..color.width).map(move |x| value(x, y))).collect();
+    for (pixel, alpha) in color.rgba.iter_mut().zip(alpha) {
+        pixel[3] = alpha;
+    }
+    color
+}

@@ -1,0 +1,274 @@
+//! Wavefront OBJ.
+//!
+//! Polygons are split as a fan from their first corner, and every triangle is kept as it is, also degenerate and
+//! repeated ones. A mesh is made for every object and material. Faces without normals get smooth ones.
+//!
+//! The reader is the project's own since `tobj` names no line in its errors, panics on an MTL colour of two numbers,
+//! takes an index of 0 for an absent one, and mixes up vertices of which only some have texture coordinates.
+//! (Source: Wavefront, "Advanced Visualizer manual", appendix B1.)
+
+use crate::error::{self, Error, Place};
+use crate::lines::{self, Line};
+use crate::model::{Model, Part, is_usable, is_usable_uv};
+use crate::mtl::Library;
+use glam::{DAffine3, Vec2, Vec3};
+use std::collections::HashMap;
+use std::ops::Range;
+use std::path::Path;
+use umbrage_core::{Material, Mesh};
+
+/// Indices from 0 of position, texture coordinate and normal of a corner; `NONE` where it has none.
+type Corner = [u32; 3];
+const NONE: u32 = u32::MAX;
+
+/// A polygon as written.
+struct Face {
+    line: usize,
+    /// Into [`Contents::groups`].
+    group: usize,
+    /// Into [`Contents::corners`].
+    corners: Range<usize>,
+}
+
+/// Faces of one object and material.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+struct Group {
+    object: String,
+    material: Option<String>,
+}
+
+/// What the lines of the file say.
+#[derive(Default)]
+struct Contents {
+    positions: Vec<Vec3>,
+    uvs: Vec<Vec2>,
+    normals: Vec<Vec3>,
+    corners: Vec<Corner>,
+    faces: Vec<Face>,
+    groups: Vec<Group>,
+    index_of_group: HashMap<Group, usize>,
+    /// The group that faces belong to from here on.
+    current: Group,
+    library: Library,
+    /// Elements and keywords that were left out, with the line of the first one.
+    left_out: HashMap<String, usize>,
+}
+
+/// Reads an OBJ file and the material libraries it names.
+pub(crate) fn read(file: &Path) -> Result<Model, Error> {
+    let bytes = error::read(file)?;
+    let mut contents = Contents::default();
+    lines::for_each(file, &String::from_utf8_lossy(&bytes), |line| contents.read_line(file, &line))?;
+    contents.check_indices(file)?;
+    Ok(contents.into_model(file))
+}
+
+impl Contents {
+    fn read_line(&mut self, file: &Path, line: &Line<'_>) -> Result<(), Error> {
+        match line.keyword {
+            "v" => {
+                let position = Vec3::from(line.numbers::<3>()?);
+                if !is_usable(position) {
+                    return Err(line.error(format!("vertex {position} is too far away")));
+                }
+                self.positions.push(position);
+            }
+            "vt" => {
+                // A texture may be one-dimensional. Row 0 of a picture is its top, v = 1.
+                let u = line.numbers::<1>()?[0];
+                let v = if line.rest.contains(char::is_whitespace) { line.numbers::<2>()?[1] } else { 0.0 };
+                let uv = Vec2::new(u, 1.0 - v);
+                if !is_usable_uv(uv) {
+                    return Err(line.error(format!("texture coordinate {uv} is too large")));
+                }
+                self.uvs.push(uv);
+            }
+            "vn" => self.normals.push(Vec3::from(line.numbers()?)),
+            "f" | "fo" => self.read_face(line)?,
+            "o" => self.current.object = line.rest.to_owned(),
+            "usemtl" => self.current.material = Some(line.rest.to_owned()),
+            "mtllib" => self.read_library(file, line)?,
+            // Names of groups, smoothing, and display attributes, none of which changes the surface.
+            "g" | "s" | "mg" | "vp" | "bevel" | "c_interp" | "d_interp" | "lod" | "shadow_obj" | "trace_obj" => {}
+            other => {
+                self.left_out.entry(other.to_owned()).or_insert(line.number);
+            }
+        }
+        Ok(())
+    }
+
+    fn read_face(&mut self, line: &Line<'_>) -> Result<(), Error> {
+        let start = self.corners.len();
+        for word in line.rest.split_ascii_whitespace().take_while(|word| !word.starts_with('#')) {
+            let mut corner = [NONE; 3];
+            let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
+            for (i, part) in word.split('/').enumerate() {
+                match (corner.get_mut(i), i, part) {
+                    (Some(_), 1 | 2, "") => {}
+                    (Some(index), ..) => *index = parse_index(part, counts[i]).ok_or_else(|| bad_corner(line, word))?,
+                    (None, ..) => return Err(bad_corner(line, word)),
+                }
+            }
+            self.corners.push(corner);
+        }
+        let count = self.corners.len() - start;
+        if count < 3 {
+            return Err(line
+                .error(format!("a face needs 3 corners and has {count}"))
+                .remedy("the file may be cut off or damaged: export it again"));
+        }
+        let group = *self.index_of_group.entry(self.current.clone()).or_insert_with(|| {
+            self.groups.push(self.current.clone());
+            self.groups.len() - 1
+        });
+        self.faces.push(Face { line: line.number, group, corners: start..self.corners.len() });
+        Ok(())
+    }
+
+    /// Reads a material library. A missing one is common, and noted; what is wrong inside one is an error.
+    fn read_library(&mut self, file: &Path, line: &Line<'_>) -> Result<(), Error> {
+        let dir = file.parent().unwrap_or(Path::new(""));
+        let whole = dir.join(line.rest.replace('\\', "/"));
+        if whole.is_file() {
+            return self.library.read(&whole);
+        }
+        // Not one name with spaces: several names.
+        for name in line.rest.split_whitespace() {
+            let path = dir.join(name.replace('\\', "/"));
+            if path.is_file() {
+                self.library.read(&path)?;
+            } else {
+                self.library.notes.push(format!(
+                    "{}:{}: material library `{name}` is missing: default materials are used",
+                    file.display(),
+                    line.number
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Faces may name vertices that come later in the file, so that indices are checked at its end.
+    fn check_indices(&self, file: &Path) -> Result<(), Error> {
+        let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
+        let names = ["vertices", "texture coordinates", "normals"];
+        for face in &self.faces {
+            for corner in &self.corners[face.corners.clone()] {
+                for ((&index, count), name) in corner.iter().zip(counts).zip(names) {
+                    if index != NONE && index as usize >= count {
+                        let what = format!("index {} is out of range: the file has {count} {name}", index as u64 + 1);
+                        return Err(Error::new(file, what)
+                            .at(Place::Line(face.line, None))
+                            .remedy("the file may be cut off or damaged: export it again"));
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn into_model(mut self, file: &Path) -> Model {
+        let smooth = self.smooth_normals();
+        let mut model = Model::default();
+        let mut builders: Vec<MeshBuilder> = self.groups.iter().map(MeshBuilder::new).collect();
+        for face in &self.faces {
+            let corners = &self.corners[face.corners.clone()];
+            for pair in corners[1..].windows(2) {
+                for corner in [corners[0], pair[0], pair[1]] {
+                    builders[face.group].add(corner, &self, &smooth);
+                }
+            }
+        }
+        let default = self.library.materials.len();
+        let mut uses_default = false;
+        for (builder, group) in builders.into_iter().zip(&self.groups) {
+            let known = group.material.as_ref().and_then(|name| self.library.by_name.get(name)).copied();
+            if let (None, Some(name), false) = (known, &group.material, self.library.by_name.is_empty()) {
+                self.library.notes.push(format!(
+                    "{}: material `{name}` is in none of its libraries: the default material is used",
+                    file.display()
+                ));
+            }
+            uses_default |= known.is_none();
+            model.parts.push(Part {
+                mesh: model.meshes.len(),
+                material: known.unwrap_or(default),
+                model_from_mesh: DAffine3::IDENTITY,
+            });
+            model.meshes.push(builder.mesh);
+        }
+        if uses_default {
+            self.library.materials.push(Material::default());
+        }
+        model.materials = self.library.materials;
+        model.textures = self.library.textures;
+        model.notes = self.library.notes;
+        let mut left_out: Vec<_> = self.left_out.into_iter().collect();
+        left_out.sort_by_key(|(_, line)| *line);
+        model.notes.extend(
+            left_out
+                .into_iter()
+                .map(|(keyword, line)| format!("{}:{line}: `{keyword}` is not read and was left out", file.display())),
+        );
+        model
+    }
+
+    /// A normal for every position, from all faces around it: also where texture coordinates, objects or materials
+    /// split the vertex. Empty where every corner has a normal of its own.
+    fn smooth_normals(&mut self) -> Vec<Vec3> {
+        if self.corners.iter().all(|c| c[2] != NONE) {
+            return Vec::new();
+        }
+        let mut indices = Vec::with_capacity(self.corners.len());
+        for face in &self.faces {
+            let corners = &self.corners[face.corners.clone()];
+            indices.extend(corners[1..].windows(2).flat_map(|pair| [corners[0][0], pair[0][0], pair[1][0]]));
+        }
+        let mut mesh = Mesh { positions: std::mem::take(&mut self.positions), indices, ..Mesh::default() };
+        mesh.generate_normals_if_absent();
+        self.positions = mesh.positions;
+        mesh.normals
+    }
+}
+
+/// Turns corners into vertices: equal corners are one vertex.
+struct MeshBuilder {
+    mesh: Mesh,
+    vertex_of_corner: HashMap<Corner, u32>,
+}
+
+impl MeshBuilder {
+    fn new(group: &Group) -> Self {
+        let material = group.material.as_deref().unwrap_or("");
+        let name = format!("{} {material}", group.object).trim().to_owned();
+        Self { mesh: Mesh { name, ..Mesh::default() }, vertex_of_corner: HashMap::new() }
+    }
+
+    fn add(&mut self, corner: Corner, contents: &Contents, smooth: &[Vec3]) {
+        let mesh = &mut self.mesh;
+        let vertex = *self.vertex_of_corner.entry(corner).or_insert_with(|| {
+            let [position, uv, normal] = corner.map(|i| i as usize);
+            let own = contents.normals.get(normal).and_then(|n| n.try_normalize());
+            let smooth = smooth.get(position).copied().unwrap_or(Vec3::Y);
+            mesh.positions.push(contents.positions[position]);
+            mesh.normals.push(own.unwrap_or(smooth));
+            if !contents.uvs.is_empty() {
+                mesh.uvs.push(contents.uvs.get(uv).copied().unwrap_or_default());
+            }
+            mesh.positions.len() as u32 - 1
+        });
+        mesh.indices.push(vertex);
+    }
+}
+
+/// An index from 0 out of one from 1, or out of a negative one that counts back from `count`.
+fn parse_index(word: &str, count: usize) -> Option<u32> {
+    let index: i64 = word.parse().ok()?;
+    let from_zero = if index < 0 { count as i64 + index } else { index - 1 };
+    u32::try_from(from_zero).ok().filter(|&i| i != NONE)
+}
+
+fn bad_corner(line: &Line<'_>, word: &str) -> Error {
+    line.error(format!("`{word}` is not a corner of a face"))
+        .remedy("a corner is v, v/vt, v//vn or v/vt/vn, counted from 1, or from -1 backwards")
+}

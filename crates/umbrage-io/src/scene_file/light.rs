@@ -1,0 +1,116 @@
+//! `[[light]]`.
+
+use super::reader::{Table, Value};
+use crate::{Error, pictures};
+use glam::{DMat3, DVec3};
+use std::path::Path;
+use umbrage_core::{Light, LightShape, Scene};
+
+const COMMON: [&str; 6] = ["kind", "color", "intensity", "attenuation", "range", "casts"];
+
+/// Every kind with its own keys.
+const KINDS: [(&str, &[&str]); 8] = [
+    ("point", &["position"]),
+    ("spot", &["position", "direction", "inner_angle", "outer_angle"]),
+    ("directional", &["direction", "angle"]),
+    ("sphere", &["position", "radius"]),
+    ("ellipsoid", &["position", "radii", "rotate"]),
+    ("disc", &["position", "direction", "radius"]),
+    ("rect", &["position", "direction", "up", "size", "texture"]),
+    ("line", &["from", "to"]),
+];
+
+/// Reads a light; the texture of a rect goes into the scene.
+pub(super) fn read(scene: &mut Scene, dir: &Path, table: &Table<'_>) -> Result<Light, Error> {
+    let kind = table.require("kind")?;
+    let name = kind.string()?;
+    let Some((_, keys)) = KINDS.iter().find(|(k, _)| *k == name) else {
+        return Err(kind.error(format!("`{name}` is unknown")).did_you_mean(name, KINDS.map(|(k, _)| k)));
+    };
+    table.check_keys(&[&COMMON, keys])?;
+    let default = Light::new(read_shape(scene, dir, table, name)?);
+    Ok(Light {
+        color: table.get_or("color", default.color, Value::color)?,
+        intensity: table.get_or("intensity", default.intensity, |v| v.not_negative().map(|i| i as f32))?,
+        attenuation: table.get_or("attenuation", default.attenuation, |v| {
+            let attenuation = v.color()?;
+            let falls = attenuation.max_element() > 0.0;
+            if falls { Ok(attenuation) } else { Err(v.error("must not be all 0: the light would be infinite")) }
+        })?,
+        range: table.get("range").map(|v| v.positive()).transpose()?,
+        casts: table.get_or("casts", default.casts, Value::bool)?,
+        shape: default.shape,
+    })
+}
+
+fn read_shape(scene: &mut Scene, dir: &Path, table: &Table<'_>, kind: &str) -> Result<LightShape, Error> {
+    let position = || table.require("position")?.vec3();
+    let direction = || table.require("direction")?.direction();
+    let radius = || table.require("radius")?.not_negative();
+    Ok(match kind {
+        "point" => LightShape::Point { position: position()? },
+        "spot" => {
+            let [inner_angle_deg, outer_angle_deg] = read_cone(table)?;
+            LightShape::Spot { position: position()?, direction: direction()?, inner_angle_deg, outer_angle_deg }
+        }
+        "directional" => {
+            let angle_deg = table.get_or("angle", 0.0, |v| {
+                let angle = v.not_negative()?;
+                if angle < 180.0 { Ok(angle) } else { Err(v.error(format!("must be below 180, not {angle}"))) }
+            })?;
+            LightShape::Directional { direction: direction()?, angle_deg }
+        }
+        "sphere" => LightShape::Sphere { position: position()?, radius: radius()? },
+        "ellipsoid" => LightShape::Ellipsoid {
+            position: position()?,
+            radii: table.require("radii")?.positive3()?,
+            rotation: rotation(table.get_or("rotate", DVec3::ZERO, Value::vec3)?),
+        },
+        "disc" => LightShape::Disc { position: position()?, direction: direction()?, radius: radius()? },
+        "rect" => {
+            let direction = direction()?;
+            let up = table.require("up")?;
+            let Some(up) = up.direction()?.reject_from_normalized(direction).try_normalize() else {
+                return Err(up.error("lies along `direction`").remedy("give another one"));
+            };
+            let texture = table.get("texture").map(|v| read_texture(scene, dir, &v)).transpose()?;
+            let size = table.require("size")?.positive2()?;
+            LightShape::Rect { position: position()?, direction, up, size, texture }
+        }
+        _ => {
+            let (from, to) = (table.require("from")?.vec3()?, table.require("to")?);
+            if to.vec3()? == from {
+                return Err(to.error("is where `from` is").remedy("a light without length is a `point`"));
+            }
+            LightShape::Line { from, to: to.vec3()? }
+        }
+    })
+}
+
+/// Inner and outer half angle of a spot, degrees.
+fn read_cone(table: &Table<'_>) -> Result<[f64; 2], Error> {
+    let (inner, outer) = (table.require("inner_angle")?, table.require("outer_angle")?);
+    let (inner_deg, outer_deg) = (inner.not_negative()?, outer.positive()?);
+    if outer_deg >= 90.0 {
+        return Err(outer.error(format!("is half the cone and must be below 90, not {outer_deg}")));
+    }
+    if inner_deg > outer_deg {
+        return Err(inner.error(format!("is {inner_deg}, larger than `outer_angle`, {outer_deg}")));
+    }
+    Ok([inner_deg, outer_deg])
+}
+
+fn read_texture(scene: &mut Scene, dir: &Path, path: &Value<'_>) -> Result<usize, Error> {
+    let texture = pictures::load_texture(&dir.join(path.string()?)).map_err(|e| path.error(format!("names {e}")))?;
+    let known = scene.textures.iter().position(|t| *t == texture);
+    Ok(known.unwrap_or_else(|| {
+        scene.textures.push(texture);
+        scene.textures.len() - 1
+    }))
+}
+
+/// Rz · Ry · Rx of angles in degrees.
+pub(super) fn rotation(angles_deg: DVec3) -> DMat3 {
+    let a = DVec3::from(angles_deg.to_array().map(f64::to_radians));
+    DMat3::from_rotation_z(a.z) * DMat3::from_rotation_y(a.y) * DMat3::from_rotation_x(a.x)
+}

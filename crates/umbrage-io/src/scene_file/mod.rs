@@ -1,0 +1,74 @@
+//! Scene files: camera, models and lights in one TOML text.
+
+mod light;
+mod model;
+mod reader;
+
+use crate::{Error, Opened, defaults, finish, title};
+use model::Models;
+use reader::{Source, Table, Value};
+use std::path::Path;
+use toml::de::DeTable;
+use umbrage_core::{Camera, Scene};
+
+/// Reads the text of a scene file. Paths in it are relative to `dir`; errors call it `file`.
+pub(crate) fn read(text: &str, dir: &Path, file: &Path) -> Result<Opened, Error> {
+    let source = Source { file, text };
+    let document = DeTable::parse(text).map_err(|e| {
+        let end = text.len()..text.len();
+        source.error(e.span().unwrap_or(end), format!("is not valid TOML: {}", e.message()))
+    })?;
+    let root = Table::new(source, "scene", 0..0, document.get_ref());
+    root.check_keys(&[&["name", "camera", "ambient", "model", "light"]])?;
+
+    let mut scene =
+        Scene { name: root.get_or("name", title(file), |v| v.string().map(str::to_owned))?, ..Scene::default() };
+    if let Some(ambient) = root.get("ambient") {
+        let ambient = ambient.table()?;
+        ambient.check_keys(&[&["color"]])?;
+        scene.ambient = ambient.get_or("color", scene.ambient, Value::color)?;
+    }
+    let camera = root.get("camera").map(|c| read_camera(&c.table()?)).transpose()?;
+    let mut models = Models::new(dir);
+    if let Some(tables) = root.get("model") {
+        for (index, table) in tables.tables()?.iter().enumerate() {
+            models.read(&mut scene, index, table)?;
+        }
+    }
+    if let Some(tables) = root.get("light") {
+        for table in tables.tables()? {
+            let light = light::read(&mut scene, dir, &table)?;
+            scene.lights.push(light);
+        }
+    }
+
+    let mut notes = models.into_notes();
+    match camera {
+        Some(camera) => scene.camera = camera,
+        None => defaults::add_camera(&mut scene, &mut notes),
+    }
+    finish(file, scene, notes)
+}
+
+fn read_camera(table: &Table<'_>) -> Result<Camera, Error> {
+    table.check_keys(&[&["eye", "target", "up", "fov_y", "near"]])?;
+    let (eye, target) = (table.require("eye")?.vec3()?, table.require("target")?);
+    let view = target.vec3()? - eye;
+    let Some(forward) = view.try_normalize() else {
+        return Err(target.error("is where `eye` is: the camera looks nowhere").remedy("move one of them"));
+    };
+    let default = Camera::default();
+    let up = table.get_or("up", default.up, Value::direction)?;
+    if forward.cross(up).length() < 1e-6 {
+        let what = "`up` lies along the line of sight";
+        let error = table.get("up").map_or_else(|| table.error(what), |v| v.error("lies along the line of sight"));
+        return Err(error.remedy("give another `up`, such as [0.0, 0.0, -1.0]"));
+    }
+    let fov_y = table.require("fov_y")?;
+    let fov_y_deg = fov_y.number()?;
+    if !(0.0 < fov_y_deg && fov_y_deg < 180.0) {
+        return Err(fov_y.error(format!("must be over 0 and below 180 degrees, not {fov_y_deg}")));
+    }
+    let near = table.get_or("near", default.near, Value::positive)?;
+    Ok(Camera { eye, target: target.vec3()?, up, fov_y_deg, near })
+}
