@@ -1,0 +1,168 @@
+//! A bounding volume hierarchy over triangles: boxes in single precision, triangles in double.
+
+use crate::shaft::Shaft;
+use crate::triangle::{Ray, SeenTriangle, Triangle};
+use glam::{DVec3, Vec3A};
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::{Bvh2, builder::build_bvh2};
+use obvhs::ray::{Ray as BoxRay, RayHit};
+use obvhs::{Boundable, BvhBuildParams};
+use std::time::Duration;
+
+/// Boxes are grown by this share of the largest coordinate. A ray's origin is at most about eight largest coordinates
+/// off, so that rounding it and the slab test move a box by less than 8 · 6 roundings of 2⁻²⁴ each: the box of a
+/// triangle that a ray hits is never missed.
+const PADDING: f64 = 1.0 / (1 << 18) as f64;
+
+/// Triangles and the hierarchy over them.
+pub(crate) struct Bvh {
+    tree: Bvh2,
+    /// In the order of the tree's leaves.
+    triangles: Vec<Triangle>,
+    /// Largest coordinate of any corner.
+    largest: f64,
+}
+
+/// Decides whether a triangle that a ray meets is there, or is cut out at that point.
+pub(crate) trait Opacity {
+    /// True where the ray along `direction` is stopped by `triangle`.
+    fn stops(&self, triangle: &Triangle, seen: &SeenTriangle, direction: DVec3) -> bool;
+}
+
+impl Bvh {
+    pub fn new(triangles: Vec<Triangle>) -> Self {
+        let corners = triangles.iter().flat_map(|t| t.corners());
+        let largest = corners.map(|c| c.abs().max_element()).fold(0.0, f64::max);
+        let boxes: Vec<Padded> = triangles.iter().map(|t| Padded::around(t, PADDING * largest)).collect();
+        if triangles.is_empty() {
+            return Self { tree: Bvh2::default(), triangles, largest };
+        }
+        // The builder insists on a clock's reading, which nobody needs.
+        let tree = build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Duration::default());
+        let triangles = tree.primitive_indices.iter().filter_map(|&i| triangles.get(i as usize).cloned()).collect();
+        Self { tree, triangles, largest }
+    }
+
+    /// True where a triangle other than `own` stops the ray.
+    pub fn is_blocked(&self, ray: &Ray, own: Option<u32>, opacity: &impl Opacity) -> bool {
+        self.blocker(ray, own, opacity).is_some()
+    }
+
+    /// Index of some triangle, not of number `own`, that stops the ray.
+    pub fn blocker(&self, ray: &Ray, own: Option<u32>, opacity: &impl Opacity) -> Option<usize> {
+        let mut found = None;
+        self.tree.ray_traverse_miss(self.box_ray(ray)?, |_, i| {
+            if self.stops(i, ray, own, opacity) {
+                found = Some(i);
+                0.0
+            } else {
+                f32::INFINITY
+            }
+        });
+        found
+    }
+
+    /// True where triangle `index`, if it is not of number `own`, stops the ray.
+    #[inline]
+    pub fn stops(&self, index: usize, ray: &Ray, own: Option<u32>, opacity: &impl Opacity) -> bool {
+        let triangle = &self.triangles[index];
+        let seen = triangle.seen_from(ray.origin);
+        seen.is_hit(ray.direction, ray.t_min, ray.t_max)
+            && Some(triangle.id) != own
+            && opacity.stops(triangle, &seen, ray.direction)
+    }
+
+    /// The first triangle that stops the ray, and its t. Of triangles at the same place it is the first of the scene.
+    pub fn first(&self, ray: &Ray, opacity: &impl Opacity) -> Option<(&Triangle, f64)> {
+        let box_ray = self.box_ray(ray)?;
+        let start = (box_ray.origin.as_dvec3() - ray.origin).dot(box_ray.direction.as_dvec3());
+        let length = ray.direction.length();
+        let mut best: Option<(&Triangle, f64)> = None;
+        let mut hit = RayHit::none();
+        self.tree.ray_traverse(box_ray, &mut hit, |_, i| {
+            let triangle = &self.triangles[i];
+            let seen = triangle.seen_from(ray.origin);
+            if !seen.is_hit(ray.direction, ray.t_min, ray.t_max) {
+                return f32::INFINITY;
+            }
+            let t = seen.distance(ray.direction);
+            let nearer = best.is_none_or(|(b, so_far)| t < so_far || (t == so_far && triangle.id < b.id));
+            if !nearer || !opacity.stops(triangle, &seen, ray.direction) {
+                return f32::INFINITY;
+            }
+            best = Some((triangle, t));
+            self.rounded_up(t * length - start)
+        });
+        best
+    }
+
+    /// The triangles that may touch the shaft, up to `most` of them; `None` where there are more.
+    pub fn within(&self, shaft: &Shaft, most: usize, into: &mut Vec<u32>) -> Option<()> {
+        into.clear();
+        let mut pending = Vec::with_capacity(64);
+        pending.extend((!self.tree.nodes.is_empty()).then_some(0_u32));
+        while let Some(node) = pending.pop().and_then(|i| self.tree.nodes.get(i as usize)) {
+            let bounds = node.aabb();
+            if !shaft.may_touch_box(bounds.min.as_dvec3(), bounds.max.as_dvec3()) {
+                continue;
+            }
+            if !node.is_leaf() {
+                pending.extend([node.first_index, node.first_index + 1]);
+                continue;
+            }
+            let leaf = node.first_index..node.first_index + node.prim_count;
+            into.extend(leaf.filter(|&i| shaft.may_touch_triangle(self.triangles[i as usize].corners())));
+            if into.len() > most {
+                return None;
+            }
+        }
+        Some(())
+    }
+
+    /// The triangle of an index that [`Bvh::within`] gave.
+    pub fn triangle(&self, index: u32) -> &Triangle {
+        &self.triangles[index as usize]
+    }
+
+    /// The ray for the boxes: its start moved to where it comes near them, its t the length from there. `None` where it
+    /// surely misses them all or has no direction.
+    fn box_ray(&self, ray: &Ray) -> Option<BoxRay> {
+        let length = ray.direction.length();
+        let direction = ray.direction / length;
+        if !(direction.is_finite() && ray.origin.is_finite()) {
+            return None;
+        }
+        // All triangles are within √3 largest coordinates around the origin; no ray enters earlier than at `start`.
+        let reach = 1.8 * self.largest;
+        let middle = -ray.origin.dot(direction);
+        if (ray.origin + direction * middle).length_squared() > reach * reach {
+            return None;
+        }
+        let start = (middle - reach).max(0.0);
+        let t_max = ray.t_max * length - start;
+        let origin = (ray.origin + direction * start).as_vec3a();
+        let far_behind = middle < -reach;
+        (t_max > 0.0 && !far_behind).then(|| BoxRay::new(origin, direction.as_vec3a(), 0.0, self.rounded_up(t_max)))
+    }
+
+    fn rounded_up(&self, length: f64) -> f32 {
+        (length * (1.0 + 1e-6) + PADDING * self.largest) as f32
+    }
+}
+
+/// The box of a triangle, grown.
+struct Padded(Aabb);
+
+impl Padded {
+    fn around(triangle: &Triangle, margin: f64) -> Self {
+        let [a, b, c] = *triangle.corners();
+        let vector = |v: DVec3| -> Vec3A { v.as_vec3a() };
+        Self(Aabb::new(vector(a.min(b).min(c) - margin), vector(a.max(b).max(c) + margin)))
+    }
+}
+
+impl Boundable for Padded {
+    fn aabb(&self) -> Aabb {
+        self.0
+    }
+}
