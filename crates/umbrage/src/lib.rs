@@ -1,1 +1,66 @@
-//! Real-time shadows on wgpu: every technique behind one interface.
+//! Real-time shadows on `wgpu`: every technique behind one interface.
+//!
+//! A technique answers one question, *which share of this light does each visible point see?*, and writes the answer to
+//! a [`VisibilityTarget`]. A host engine brings its device, depth buffer, camera, casters and lights:
+//!
+//! ```no_run
+//! # fn frame(device: wgpu::Device, queue: wgpu::Queue, depth: &wgpu::TextureView, camera: umbrage::core::CameraView,
+//! #          scene: &umbrage::core::Scene) -> Result<(), umbrage::Error> {
+//! // Once.
+//! let gpu = umbrage::Gpu::new(device, queue);
+//! let casters = umbrage::Casters::new(&gpu, scene)?;
+//! let receivers = umbrage::Receivers::new(&gpu, depth, None, (1024, 768));
+//! let visibility = umbrage::VisibilityTarget::new(&gpu, 1024, 768)?;
+//! let info = umbrage::find("pcf")?;
+//! let mut technique = info.make(&gpu, &info.settings(&[])?)?;
+//! let mut recorder = umbrage::Recorder::new(&gpu);
+//! // Every frame, after the depth buffer is drawn.
+//! let view = umbrage::View {
+//!     camera, receivers: &receivers, casters: &casters, light: &scene.lights[0], textures: &scene.textures,
+//! };
+//! technique.prepare(&gpu, &view)?;
+//! let mut encoder = gpu.device.create_command_encoder(&Default::default());
+//! let mut passes = recorder.begin(&mut encoder);
+//! technique.record(&mut passes, &view, &visibility)?;
+//! passes.finish();
+//! gpu.queue.submit([encoder.finish()]);
+//! # Ok(()) }
+//! ```
+
+pub mod baseline;
+mod casters;
+mod depth_maps;
+mod error;
+mod gpu;
+mod light_samples;
+mod params;
+mod passes;
+mod receivers;
+mod renderer;
+mod shader;
+mod technique;
+mod techniques;
+mod view;
+mod visibility;
+
+pub use casters::{Casters, DrawList, Which};
+pub use error::Error;
+pub use gpu::{AdapterSummary, Gpu};
+pub use light_samples::light_samples;
+pub use params::{Param, ParamKind, Settings, Value};
+pub use passes::{PassTime, Passes, Recorder};
+pub use receivers::Receivers;
+pub use renderer::{LightPass, Renderer};
+pub use shader::{HostLayout, Shader};
+pub use technique::{DebugView, Stats, Technique, TechniqueInfo};
+pub use techniques::{find, techniques};
+
+pub use umbrage_core as core;
+pub use view::View;
+pub use visibility::VisibilityTarget;
+
+/// Every shader of the library: those of the techniques, the adaptor, the baselines and the renderer.
+pub fn shaders() -> Vec<Shader> {
+    let own = techniques().iter().flat_map(|t| t.shaders);
+    own.chain([&light_samples::SHADER]).chain(baseline::SHADERS).chain(renderer::SHADERS).copied().collect()
+}

@@ -1,0 +1,89 @@
+//! What any technique costs at least, measured in the same run: the yardsticks that timings are given against.
+
+use crate::depth_maps::{LOOKUP_LAYOUTS, MapTechnique};
+use crate::{
+    error::Error,
+    gpu::Gpu,
+    passes::Passes,
+    receivers::Receivers,
+    shader::{FULLSCREEN, MAP_LOOKUP, RECEIVERS, Shader},
+    technique::{Stats, Technique},
+    techniques,
+    view::View,
+    visibility::VisibilityTarget,
+};
+
+/// Shaders of the baselines, for the registry's tests.
+pub const SHADERS: &[Shader] = &[FLOOR, BARE];
+
+const FLOOR: Shader =
+    Shader { name: "floor", parts: &[FULLSCREEN, RECEIVERS, include_str!("wgsl/baseline_floor.wgsl")], layouts: &[] };
+
+const BARE: Shader = Shader {
+    name: "bare minimum",
+    parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, include_str!("wgsl/baseline_bare.wgsl")],
+    layouts: LOOKUP_LAYOUTS,
+};
+
+/// The floor: one full-screen pass that reads depth and writes visibility. Not a shadow.
+pub fn floor(gpu: &Gpu) -> Box<dyn Technique> {
+    let module = FLOOR.module(gpu);
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        bind_group_layouts: &[Some(&Receivers::layout(gpu))],
+        ..Default::default()
+    });
+    let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("floor"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("fullscreen"),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: Default::default(),
+        depth_stencil: None,
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("visibility"),
+            compilation_options: Default::default(),
+            targets: &[Some(VisibilityTarget::FORMAT.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    });
+    Box::new(Floor { pipeline })
+}
+
+/// The bare minimum of a shadow map of `size` texels: one depth-only pass over the casters for each view, one
+/// full-screen pass with one compare, no bias at all. Full of acne; its time is what counts.
+///
+/// # Errors
+/// [`Error::Size`] beyond the adapter's limit.
+pub fn bare_minimum(gpu: &Gpu, size: u32) -> Result<Box<dyn Technique>, Error> {
+    let settings = techniques::shadow_map::INFO.settings(&[("size".into(), size.to_string())])?;
+    Ok(Box::new(MapTechnique::new(gpu, &settings, &BARE, 0.0, &[])?))
+}
+
+struct Floor {
+    pipeline: wgpu::RenderPipeline,
+}
+
+impl Technique for Floor {
+    fn prepare(&mut self, _: &Gpu, _: &View<'_>) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+        let mut pass = passes.render("floor", &[visibility.overwrite()], None);
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &view.receivers.bind_group, &[]);
+        pass.draw(0..3, 0..1);
+        Ok(())
+    }
+
+    fn stats(&self) -> Stats {
+        Stats { draws: 1, triangles: 1, ..Stats::default() }
+    }
+}

@@ -1,0 +1,380 @@
+//! The scene's triangles on the GPU, drawn in as few calls as there are meshes.
+//!
+//! All meshes share one vertex and one index buffer. Instances lie in a storage buffer, relative to the middle of the
+//! scene, so that single precision is enough wherever the scene is. A draw is one mesh with a list of instance
+//! numbers as its per-instance vertex buffer: culling writes that list and nothing else.
+
+use crate::{error::Error, gpu::Gpu, passes::Passes, shader::shader_struct};
+use std::ops::Range;
+use umbrage_core::glam::{DAffine3, DVec3};
+use umbrage_core::{Bounds, Frustum, Scene};
+
+mod material;
+pub(crate) use material::{MATERIAL_LAYOUT, MATERIALS_WGSL, texture_layout};
+
+/// Declares `Instance`, the buffers of group 1 and how a vertex gets into the world.
+pub(crate) const CASTERS_WGSL: &str = include_str!("wgsl/casters.wgsl");
+
+shader_struct! {
+    /// A placed mesh; the rows of an affine matrix from mesh space to world space about [`Casters::origin`].
+    pub(crate) struct Instance {
+        row0: [f32; 4],
+        row1: [f32; 4],
+        row2: [f32; 4],
+        material: u32,
+        flags: u32,
+        model: u32,
+        spare: u32,
+    }
+}
+
+/// Bit of `Instance::flags`: shadows fall on it.
+const RECEIVES: u32 = 1;
+
+/// Meshes and instances on the GPU.
+pub struct Casters {
+    /// What GPU world space is relative to: the middle of the scene when it was uploaded.
+    pub origin: DVec3,
+    pub(crate) bind_group: wgpu::BindGroup,
+    pub(crate) positions: wgpu::Buffer,
+    pub(crate) attributes: wgpu::Buffer,
+    pub(crate) indices: wgpu::Buffer,
+    instances: wgpu::Buffer,
+    textures: Vec<wgpu::BindGroup>,
+    batches: Vec<Batch>,
+    placed: Vec<Placed>,
+    bytes: u64,
+}
+
+/// Instances of one mesh with one texture: one draw.
+struct Batch {
+    indices: Range<u32>,
+    base_vertex: i32,
+    /// Index into the textures.
+    texture: usize,
+    masked: bool,
+    /// Indices into `placed`.
+    members: Range<usize>,
+}
+
+/// What the CPU keeps of an instance, in the order of the batches.
+struct Placed {
+    number: u32,
+    mesh_bounds: Bounds,
+    bounds: Bounds,
+    casts: bool,
+    receives: bool,
+    data: Instance,
+}
+
+impl Casters {
+    /// Uploads a scene's meshes, instances, materials and textures.
+    ///
+    /// # Errors
+    /// [`Error::Size`] beyond the adapter's limits; [`Error::Scene`] for an index that leads nowhere.
+    pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, Error> {
+        check(gpu, scene)?;
+        let origin = scene.bounds().center();
+        let (mut positions, mut attributes, mut indices) = (Vec::new(), Vec::new(), Vec::<u32>::new());
+        let mut ranges = Vec::new();
+        for mesh in &scene.meshes {
+            let base_vertex = positions.len() as i32;
+            let first = indices.len() as u32;
+            positions.extend(mesh.positions.iter().map(|p| p.to_array()));
+            attributes.extend((0..mesh.positions.len()).map(|i| {
+                let n = mesh.normals.get(i).copied().unwrap_or_default();
+                let uv = mesh.uvs.get(i).copied().unwrap_or_default();
+                [n.x, n.y, n.z, uv.x, uv.y]
+            }));
+            indices.extend(&mesh.indices);
+            ranges.push((first..indices.len() as u32, base_vertex, mesh.bounds()));
+        }
+        let mut order: Vec<usize> = (0..scene.instances.len()).collect();
+        let key = |i: usize| {
+            let instance = &scene.instances[i];
+            let material = &scene.materials[instance.material];
+            (material.alpha_cutoff.is_some(), material.texture, instance.mesh)
+        };
+        order.sort_by_key(|&i| key(i));
+        let mut placed: Vec<Placed> = Vec::with_capacity(order.len());
+        let mut batches: Vec<Batch> = Vec::new();
+        let mut last = None;
+        for &i in &order {
+            let instance = &scene.instances[i];
+            let (masked, texture, mesh) = key(i);
+            let (range, base_vertex, bounds) = ranges[mesh].clone();
+            if last != Some((masked, texture, mesh)) {
+                last = Some((masked, texture, mesh));
+                batches.push(Batch {
+                    indices: range,
+                    base_vertex,
+                    texture: texture.map_or(0, |t| t + 1),
+                    masked,
+                    members: placed.len()..placed.len(),
+                });
+            }
+            placed.push(Placed {
+                number: i as u32,
+                mesh_bounds: bounds,
+                bounds: bounds.transformed(&instance.world_from_mesh),
+                casts: instance.casts,
+                receives: instance.receives,
+                data: Instance {
+                    material: instance.material as u32,
+                    flags: if instance.receives { RECEIVES } else { 0 },
+                    model: instance.model as u32,
+                    ..rows(&instance.world_from_mesh, origin)
+                },
+            });
+            if let Some(batch) = batches.last_mut() {
+                batch.members.end = placed.len();
+            }
+        }
+        let mut data = vec![Instance::default(); placed.len()];
+        placed.iter().for_each(|p| data[p.number as usize] = p.data);
+
+        use wgpu::BufferUsages as Usage;
+        let positions = gpu.buffer("positions", &positions, Usage::VERTEX);
+        let attributes = gpu.buffer("normals and texture coordinates", &attributes, Usage::VERTEX);
+        let indices = gpu.buffer("indices", &indices, Usage::INDEX);
+        let instances = gpu.buffer("instances", &data, Usage::STORAGE | Usage::COPY_DST);
+        let materials = gpu.buffer("materials", &material::all(scene), Usage::STORAGE);
+        let bytes = [&positions, &attributes, &indices, &instances, &materials].iter().map(|b| b.size()).sum();
+        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("casters"),
+            layout: &Self::layout(gpu),
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: instances.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: materials.as_entire_binding() },
+            ],
+        });
+        let textures = material::textures(gpu, scene)?;
+        Ok(Self { origin, bind_group, positions, attributes, indices, instances, textures, batches, placed, bytes })
+    }
+
+    /// Layout of the bind group that `wgsl/casters.wgsl` declares as group 1.
+    pub(crate) fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+        let storage = |binding| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only: true },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        };
+        gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("casters"),
+            entries: &[storage(0), storage(1)],
+        })
+    }
+
+    /// Moves an instance (by its place in [`Scene::instances`]); one small upload, nothing is rebuilt.
+    pub fn move_instance(&mut self, gpu: &Gpu, instance: usize, world_from_mesh: &DAffine3) {
+        let Some(placed) = self.placed.iter_mut().find(|p| p.number as usize == instance) else { return };
+        placed.bounds = placed.mesh_bounds.transformed(world_from_mesh);
+        let Instance { row0, row1, row2, .. } = rows(world_from_mesh, self.origin);
+        placed.data = Instance { row0, row1, row2, ..placed.data };
+        let at = instance as u64 * size_of::<Instance>() as u64;
+        gpu.queue.write_buffer(&self.instances, at, bytemuck::bytes_of(&placed.data));
+    }
+
+    /// Number of instances.
+    pub fn len(&self) -> usize {
+        self.placed.len()
+    }
+
+    /// True without instances.
+    pub fn is_empty(&self) -> bool {
+        self.placed.is_empty()
+    }
+
+    /// GPU memory held, textures apart.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// Boxes around the instances that throw shadows.
+    pub fn casting_bounds(&self) -> impl Iterator<Item = Bounds> + '_ {
+        self.placed.iter().filter(|p| p.casts).map(|p| p.bounds)
+    }
+
+    /// Boxes around the instances that shadows fall on.
+    pub fn receiving_bounds(&self) -> impl Iterator<Item = Bounds> + '_ {
+        self.placed.iter().filter(|p| p.receives).map(|p| p.bounds)
+    }
+}
+
+/// Which instances a draw list is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Which {
+    /// Those that throw shadows.
+    Casting,
+    /// All of them.
+    Visible,
+}
+
+/// What one view draws: filled on the CPU, uploaded when recorded. Keeps its memory from frame to frame.
+pub struct DrawList {
+    ids: Vec<u32>,
+    draws: Vec<(usize, Range<u32>)>,
+    buffer: Option<wgpu::Buffer>,
+    /// Instances that the view doesn't see.
+    pub culled: u32,
+}
+
+impl Default for DrawList {
+    fn default() -> Self {
+        Self { ids: Vec::new(), draws: Vec::new(), buffer: None, culled: 0 }
+    }
+}
+
+impl DrawList {
+    /// Chooses the instances that `frustum` may see.
+    pub fn fill(&mut self, gpu: &Gpu, casters: &Casters, which: Which, frustum: &Frustum) {
+        self.ids.clear();
+        self.draws.clear();
+        self.culled = 0;
+        for (i, batch) in casters.batches.iter().enumerate() {
+            let first = self.ids.len() as u32;
+            for placed in &casters.placed[batch.members.clone()] {
+                if which == Which::Casting && !placed.casts {
+                    continue;
+                }
+                if frustum.may_see(&placed.bounds) {
+                    self.ids.push(placed.number);
+                } else {
+                    self.culled += 1;
+                }
+            }
+            if self.ids.len() as u32 > first && !batch.indices.is_empty() {
+                self.draws.push((i, first..self.ids.len() as u32));
+            }
+        }
+        let needed = (casters.placed.len() as u64 * 4).max(16);
+        if self.buffer.as_ref().is_none_or(|b| b.size() < needed) {
+            self.buffer = Some(gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("instance numbers"),
+                size: needed,
+                usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            }));
+        }
+    }
+
+    /// Uploads the list; before the pass that draws it.
+    pub fn upload(&self, passes: &mut Passes<'_>) {
+        if let Some(buffer) = &self.buffer {
+            passes.upload(buffer, bytemuck::cast_slice(&self.ids));
+        }
+    }
+
+    /// Draws the list with positions in vertex buffer 0, instance numbers in 1 and attributes in 2. `pipeline` chooses
+    /// the pipeline of opaque (false) and alpha-masked (true) meshes; textures are bound as group 2 for the latter,
+    /// and for all where `textured`.
+    pub fn draw<'p>(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        casters: &Casters,
+        textured: bool,
+        pipeline: impl Fn(bool) -> &'p wgpu::RenderPipeline,
+    ) {
+        let Some(ids) = &self.buffer else { return };
+        pass.set_bind_group(1, &casters.bind_group, &[]);
+        pass.set_vertex_buffer(0, casters.positions.slice(..));
+        pass.set_vertex_buffer(1, ids.slice(..));
+        pass.set_vertex_buffer(2, casters.attributes.slice(..));
+        pass.set_index_buffer(casters.indices.slice(..), wgpu::IndexFormat::Uint32);
+        let mut current = None;
+        for (batch, instances) in &self.draws {
+            let batch = &casters.batches[*batch];
+            if current != Some(batch.masked) {
+                current = Some(batch.masked);
+                pass.set_pipeline(pipeline(batch.masked));
+            }
+            if textured || batch.masked {
+                pass.set_bind_group(2, &casters.textures[batch.texture], &[]);
+            }
+            pass.draw_indexed(batch.indices.clone(), batch.base_vertex, instances.clone());
+        }
+    }
+
+    /// Draw calls.
+    pub fn draws(&self) -> u32 {
+        self.draws.len() as u32
+    }
+
+    /// Instances drawn.
+    pub fn drawn(&self) -> u32 {
+        self.ids.len() as u32
+    }
+
+    /// Triangles drawn.
+    pub fn triangles(&self, casters: &Casters) -> u64 {
+        let of = |(batch, ids): &(usize, Range<u32>)| {
+            u64::from(casters.batches[*batch].indices.len() as u32 / 3) * u64::from(ids.end - ids.start)
+        };
+        self.draws.iter().map(of).sum()
+    }
+
+    /// Bytes of GPU memory.
+    pub fn bytes(&self) -> u64 {
+        self.buffer.as_ref().map_or(0, wgpu::Buffer::size)
+    }
+}
+
+/// The vertex buffers of a pass that draws casters: positions and instance numbers, and attributes where `textured`.
+pub(crate) fn vertex_layouts(textured: bool) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
+    const POSITION: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![0 => Float32x3];
+    const NUMBER: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![1 => Uint32];
+    const ATTRIBUTES: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![2 => Float32x3, 3 => Float32x2];
+    let layout =
+        |array_stride, step_mode, attributes| Some(wgpu::VertexBufferLayout { array_stride, step_mode, attributes });
+    let mut layouts =
+        vec![layout(12, wgpu::VertexStepMode::Vertex, POSITION), layout(4, wgpu::VertexStepMode::Instance, NUMBER)];
+    if textured {
+        layouts.push(layout(20, wgpu::VertexStepMode::Vertex, ATTRIBUTES));
+    }
+    layouts
+}
+
+fn rows(world_from_mesh: &DAffine3, origin: DVec3) -> Instance {
+    let m = world_from_mesh.matrix3.transpose();
+    let t = world_from_mesh.translation - origin;
+    let row = |axis: DVec3, t: f64| axis.extend(t).as_vec4().to_array();
+    Instance { row0: row(m.x_axis, t.x), row1: row(m.y_axis, t.y), row2: row(m.z_axis, t.z), ..Instance::default() }
+}
+
+/// Indices that lead somewhere and buffers that fit.
+fn check(gpu: &Gpu, scene: &Scene) -> Result<(), Error> {
+    for (i, instance) in scene.instances.iter().enumerate() {
+        if instance.mesh >= scene.meshes.len() || instance.material >= scene.materials.len() {
+            return Err(Error::Scene(format!("instance {i} refers to a mesh or material that is not in the scene")));
+        }
+    }
+    for material in &scene.materials {
+        if material.texture.is_some_and(|t| t >= scene.textures.len()) {
+            return Err(Error::Scene("a material refers to a texture that is not in the scene".into()));
+        }
+    }
+    for mesh in &scene.meshes {
+        if mesh.indices.iter().any(|&i| i as usize >= mesh.positions.len()) {
+            return Err(Error::Scene(format!("mesh `{}` has an index beyond its vertices", mesh.name)));
+        }
+    }
+    let limits = gpu.device.limits();
+    let vertices: u64 = scene.meshes.iter().map(|m| m.positions.len() as u64).sum();
+    let indices: u64 = scene.meshes.iter().map(|m| m.indices.len() as u64).sum();
+    let instances = scene.instances.len() as u64;
+    for (what, size, limit) in [
+        ("a vertex buffer", vertices * 20, limits.max_buffer_size),
+        ("an index buffer", indices * 4, limits.max_buffer_size),
+        ("an instance buffer", instances * size_of::<Instance>() as u64, limits.max_storage_buffer_binding_size),
+    ] {
+        if size > limit {
+            return Err(Error::Size { what: what.into(), size, limit });
+        }
+    }
+    Ok(())
+}

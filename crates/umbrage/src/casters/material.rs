@@ -1,0 +1,105 @@
+//! Materials and textures on the GPU.
+
+use crate::{error::Error, gpu::Gpu, shader::shader_struct};
+use umbrage_core::{Scene, Texture};
+use wgpu::util::DeviceExt;
+
+/// Declares `Material`, its buffer in group 1 and the texture in group 2.
+pub(crate) const MATERIALS_WGSL: &str = include_str!("../wgsl/materials.wgsl");
+
+shader_struct! {
+    /// Appearance of an instance.
+    pub(crate) struct Material {
+        base_color: [f32; 4],
+        emissive: [f32; 3],
+        alpha_cutoff: f32,
+        specular: f32,
+        shininess: f32,
+        spare: [f32; 2],
+    }
+}
+
+/// For shader tests.
+pub(crate) const MATERIAL_LAYOUT: crate::shader::HostLayout = Material::LAYOUT;
+
+/// All materials of the scene, as the shader reads them.
+pub(super) fn all(scene: &Scene) -> Vec<Material> {
+    let of = |m: &umbrage_core::Material| Material {
+        base_color: m.base_color.to_array(),
+        emissive: m.emissive.to_array(),
+        alpha_cutoff: m.alpha_cutoff.unwrap_or(0.0),
+        specular: m.specular,
+        shininess: m.shininess,
+        spare: [0.0; 2],
+    };
+    scene.materials.iter().map(of).collect()
+}
+
+/// A bind group for every texture; the first is plain white, for materials without one.
+pub(super) fn textures(gpu: &Gpu, scene: &Scene) -> Result<Vec<wgpu::BindGroup>, Error> {
+    let white = Texture { name: "white".into(), width: 1, height: 1, rgba: vec![[255; 4]] };
+    let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("base colour"),
+        address_mode_u: wgpu::AddressMode::Repeat,
+        address_mode_v: wgpu::AddressMode::Repeat,
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        ..Default::default()
+    });
+    std::iter::once(&white).chain(&scene.textures).map(|t| bind_group(gpu, t, &sampler)).collect()
+}
+
+fn bind_group(gpu: &Gpu, texture: &Texture, sampler: &wgpu::Sampler) -> Result<wgpu::BindGroup, Error> {
+    gpu.check_size(&format!("texture `{}`", texture.name), texture.width, texture.height)?;
+    if texture.rgba.len() as u64 != u64::from(texture.width) * u64::from(texture.height) {
+        return Err(Error::Scene(format!("texture `{}` has not width × height pixels", texture.name)));
+    }
+    let descriptor = wgpu::TextureDescriptor {
+        label: Some(&texture.name),
+        size: wgpu::Extent3d { width: texture.width, height: texture.height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8UnormSrgb,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    };
+    let data = texture.rgba.as_flattened();
+    let on_gpu = gpu.device.create_texture_with_data(&gpu.queue, &descriptor, Default::default(), data);
+    Ok(gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(&texture.name),
+        layout: &texture_layout(gpu),
+        entries: &[
+            wgpu::BindGroupEntry {
+                binding: 0,
+                resource: wgpu::BindingResource::TextureView(&on_gpu.create_view(&Default::default())),
+            },
+            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(sampler) },
+        ],
+    }))
+}
+
+/// Layout of the bind group that `wgsl/materials.wgsl` declares as group 2.
+pub(crate) fn texture_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("base colour"),
+        entries: &[
+            wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::FRAGMENT,
+                ty: wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Float { filterable: true },
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+                count: None,
+            },
+            wgpu::BindGroupLayoutEntry {
+                binding: 1,
+                visibility: wgpu::ShaderStages::FRAGMENT,
+                ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+                count: None,
+            },
+        ],
+    })
+}

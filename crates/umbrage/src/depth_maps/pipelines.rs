@@ -1,0 +1,226 @@
+//! The passes that render a layer of a map.
+
+use super::{FORMAT, MapView, Textures};
+use crate::casters::{CASTERS_WGSL, Casters, DrawList, MATERIALS_WGSL, texture_layout, vertex_layouts};
+use crate::shader::{FULLSCREEN, Shader};
+use crate::{gpu::Gpu, passes::Passes};
+
+/// Nearest surface, opaque and alpha-masked.
+pub(crate) const DEPTH_SHADER: Shader = Shader {
+    name: "shadow map",
+    parts: &[CASTERS_WGSL, MATERIALS_WGSL, include_str!("../wgsl/map_depth.wgsl")],
+    layouts: &[MapView::LAYOUT, crate::casters::Instance::LAYOUT, crate::casters::MATERIAL_LAYOUT],
+};
+
+/// Second surface.
+pub(crate) const SECOND_SHADER: Shader = Shader {
+    name: "second surface",
+    parts: &[
+        CASTERS_WGSL,
+        MATERIALS_WGSL,
+        include_str!("../wgsl/map_depth.wgsl"),
+        include_str!("../wgsl/map_second.wgsl"),
+    ],
+    layouts: DEPTH_SHADER.layouts,
+};
+
+/// Mean of the two.
+pub(crate) const MIDPOINT_SHADER: Shader =
+    Shader { name: "midpoint", parts: &[FULLSCREEN, include_str!("../wgsl/map_midpoint.wgsl")], layouts: &[] };
+
+/// Pipelines and layouts, made once.
+pub(super) struct Pipelines {
+    nearest: [wgpu::RenderPipeline; 2],
+    second: [wgpu::RenderPipeline; 2],
+    midpoint: [wgpu::RenderPipeline; 2],
+    view_layout: wgpu::BindGroupLayout,
+    one_map: wgpu::BindGroupLayout,
+    two_maps: wgpu::BindGroupLayout,
+}
+
+impl Pipelines {
+    pub(super) fn new(gpu: &Gpu, back_faces: bool) -> Self {
+        let view_layout = uniform_layout(gpu, wgpu::ShaderStages::VERTEX);
+        let one_map = depth_layout(gpu, 1);
+        let two_maps = depth_layout(gpu, 2);
+        let casters = Casters::layout(gpu);
+        let textures = texture_layout(gpu);
+        let layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
+            gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                bind_group_layouts: groups,
+                ..Default::default()
+            })
+        };
+        let cull_mode = back_faces.then_some(wgpu::Face::Front);
+        let depth = DEPTH_SHADER.module(gpu);
+        let draw =
+            |module: &wgpu::ShaderModule, layout: &wgpu::PipelineLayout, vertex: &str, fragment: Option<&str>| {
+                pipeline(gpu, layout, module, vertex, fragment, cull_mode, wgpu::CompareFunction::Greater, &[])
+            };
+        let plain = layout(&[Some(&view_layout), Some(&casters)]);
+        let textured = layout(&[Some(&view_layout), Some(&casters), Some(&textures)]);
+        let nearest = [draw(&depth, &plain, "opaque", None), draw(&depth, &textured, "masked", Some("cut_out"))];
+        let module = SECOND_SHADER.module(gpu);
+        let all = layout(&[Some(&view_layout), Some(&casters), Some(&textures), Some(&one_map)]);
+        let second =
+            [draw(&module, &all, "opaque", Some("second")), draw(&module, &all, "masked", Some("second_cut_out"))];
+        let module = MIDPOINT_SHADER.module(gpu);
+        let both = layout(&[Some(&two_maps)]);
+        let midpoint = [0.0, 1.0].map(|perspective| {
+            let constants = [("PERSPECTIVE", perspective)];
+            let always = wgpu::CompareFunction::Always;
+            pipeline(gpu, &both, &module, "fullscreen", Some("midpoint"), None, always, &constants)
+        });
+        Self { nearest, second, midpoint, view_layout, one_map, two_maps }
+    }
+
+    /// Renders one layer; returns how often the casters were drawn.
+    pub(super) fn record(
+        &self,
+        passes: &mut Passes<'_>,
+        casters: &Casters,
+        list: &DrawList,
+        textures: &Textures,
+        layer: usize,
+        perspective: bool,
+    ) -> u32 {
+        let views = &textures.layers[layer];
+        let view_uniform = &textures.uniforms[layer].1;
+        {
+            let mut pass = passes.render("map", &[], clear(&views.first));
+            pass.set_bind_group(0, view_uniform, &[]);
+            list.draw(&mut pass, casters, false, |masked| &self.nearest[usize::from(masked)]);
+        }
+        let Some(second) = &views.second else { return 1 };
+        {
+            let mut pass = passes.render("second surface", &[], clear(&second.second));
+            pass.set_bind_group(0, view_uniform, &[]);
+            pass.set_bind_group(3, &second.read_first, &[]);
+            list.draw(&mut pass, casters, true, |masked| &self.second[usize::from(masked)]);
+        }
+        let mut pass = passes.render("midpoint", &[], clear(&second.midpoint));
+        pass.set_pipeline(&self.midpoint[usize::from(perspective)]);
+        pass.set_bind_group(0, &second.read_both, &[]);
+        pass.draw(0..3, 0..1);
+        2
+    }
+
+    pub(super) fn view_uniform(&self, gpu: &Gpu) -> (wgpu::Buffer, wgpu::BindGroup) {
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let buffer = gpu.buffer("map view", &[MapView::default()], usage);
+        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("map view"),
+            layout: &self.view_layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+        });
+        (buffer, bind_group)
+    }
+
+    pub(super) fn read_first(&self, gpu: &Gpu, first: &wgpu::TextureView) -> wgpu::BindGroup {
+        read(gpu, &self.one_map, &[first])
+    }
+
+    pub(super) fn read_both(
+        &self,
+        gpu: &Gpu,
+        first: &wgpu::TextureView,
+        second: &wgpu::TextureView,
+    ) -> wgpu::BindGroup {
+        read(gpu, &self.two_maps, &[first, second])
+    }
+}
+
+/// An attachment cleared to "nothing there": depth 0, infinitely far.
+fn clear(view: &wgpu::TextureView) -> Option<wgpu::RenderPassDepthStencilAttachment<'_>> {
+    Some(wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+        stencil_ops: None,
+    })
+}
+
+/// A layout of one uniform buffer.
+pub(super) fn uniform_layout(gpu: &Gpu, visibility: wgpu::ShaderStages) -> wgpu::BindGroupLayout {
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("uniform"),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Uniform,
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        }],
+    })
+}
+
+fn depth_layout(gpu: &Gpu, count: u32) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = (0..count)
+        .map(|binding| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty: wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Depth,
+                view_dimension: wgpu::TextureViewDimension::D2,
+                multisampled: false,
+            },
+            count: None,
+        })
+        .collect();
+    gpu.device
+        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("depth maps"), entries: &entries })
+}
+
+fn read(gpu: &Gpu, layout: &wgpu::BindGroupLayout, views: &[&wgpu::TextureView]) -> wgpu::BindGroup {
+    let entries: Vec<_> = (0..)
+        .zip(views)
+        .map(|(binding, view)| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) })
+        .collect();
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("depth maps"), layout, entries: &entries })
+}
+
+fn pipeline(
+    gpu: &Gpu,
+    layout: &wgpu::PipelineLayout,
+    module: &wgpu::ShaderModule,
+    vertex: &str,
+    fragment: Option<&str>,
+    cull_mode: Option<wgpu::Face>,
+    compare: wgpu::CompareFunction,
+    constants: &[(&str, f64)],
+) -> wgpu::RenderPipeline {
+    let buffers = match vertex {
+        "fullscreen" => Vec::new(),
+        name => vertex_layouts(name == "masked"),
+    };
+    let compilation_options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(fragment.unwrap_or(vertex)),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some(vertex),
+            compilation_options: Default::default(),
+            buffers: &buffers,
+        },
+        primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: FORMAT,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(compare),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        fragment: fragment.map(|entry| wgpu::FragmentState {
+            module,
+            entry_point: Some(entry),
+            compilation_options,
+            targets: &[],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

@@ -1,0 +1,85 @@
+//! What can go wrong, each with the remedy in its text.
+
+/// An error of the GPU library. Its text is one line that says what to do.
+#[derive(Clone, Debug, thiserror::Error, PartialEq)]
+pub enum Error {
+    /// No adapter fits.
+    #[error(
+        "no usable graphics adapter{}; install a Vulkan driver (Debian, Ubuntu: apt-get install mesa-vulkan-drivers), or run `cargo xtask setup`",
+        if .found.is_empty() { String::new() } else { format!(" of that name (there are: {found})") }
+    )]
+    NoAdapter {
+        /// Names of the adapters that are there.
+        found: String,
+    },
+    /// The driver refused a device.
+    #[error("the adapter {adapter} gives no device: {reason}; choose another with --adapter")]
+    NoDevice {
+        /// Adapter name.
+        adapter: String,
+        /// What the driver said.
+        reason: String,
+    },
+    /// The device is gone: driver reset, unplugged, or destroyed by the host.
+    #[error("the graphics device was lost ({0}); make a new one and build casters, receivers and techniques again")]
+    DeviceLost(String),
+    /// The driver rejected something that should have been right.
+    #[error("the graphics driver reports: {0}")]
+    Driver(String),
+    /// Name not in the registry, with the nearest one.
+    #[error("unknown {what} `{name}`{}", suggestion(.nearest))]
+    Unknown {
+        /// Kind of thing: technique, parameter, adapter.
+        what: &'static str,
+        /// What was asked for.
+        name: String,
+        /// The nearest known name, or the list of them.
+        nearest: Option<String>,
+    },
+    /// A parameter's value is out of its range or of the wrong type.
+    #[error("parameter `{name}` of {technique}: `{value}` is not {expected}")]
+    Setting {
+        /// Technique id.
+        technique: String,
+        /// Parameter name.
+        name: String,
+        /// The value given.
+        value: String,
+        /// What is allowed.
+        expected: String,
+    },
+    /// A technique can't do this light or lacks a feature.
+    #[error("{technique}: not for {what}")]
+    Unsupported {
+        /// Technique id.
+        technique: String,
+        /// What it can't do.
+        what: String,
+    },
+    /// A size is 0 or over the adapter's limit.
+    #[error("{what} of {size} is {}; the adapter allows 1 to {limit}", if *.size == 0 { "empty" } else { "too large" })]
+    Size {
+        /// What has the size.
+        what: String,
+        /// The size asked for.
+        size: u64,
+        /// The largest possible.
+        limit: u64,
+    },
+    /// The scene can't be drawn.
+    #[error("{0}")]
+    Scene(String),
+}
+
+fn suggestion(nearest: &Option<String>) -> String {
+    nearest.as_ref().map_or(String::new(), |n| format!("; did you mean `{n}`?"))
+}
+
+/// The name among `known` nearest to `name`, where one is near enough to be meant.
+pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
+    known
+        .map(|k| (strsim::damerau_levenshtein(&name.to_lowercase(), k), k))
+        .filter(|(distance, k)| *distance <= 1 + k.len() / 3)
+        .min()
+        .map(|(_, k)| k.to_string())
+}

@@ -1,0 +1,230 @@
+//! Brute-force soft shadows: the mean of the hard visibilities from many points of the light, over any hard technique
+//! (ZA 1.4 and B.3; GG 9.2.1).
+
+use crate::{
+    error::Error,
+    gpu::Gpu,
+    params::Settings,
+    passes::Passes,
+    shader::{FULLSCREEN, Shader},
+    technique::{DebugView, Stats, Technique, TechniqueInfo},
+    view::View,
+    visibility::VisibilityTarget,
+};
+use umbrage_core::{Light, light_view::LightView, sampling::hard_lights};
+
+/// Shader of the adaptor, for the registry's tests.
+pub const SHADER: Shader =
+    Shader { name: "light samples", parts: &[FULLSCREEN, include_str!("wgsl/light_samples.wgsl")], layouts: &[] };
+
+/// Wraps the technique `info` describes, so that its visibility is the mean over `samples` points of the light.
+///
+/// # Errors
+/// [`Error::Unsupported`] for a technique that is not hard; [`Error::Size`] for 0 samples or more than 2048; what
+/// making the technique itself gives.
+pub fn light_samples(
+    info: &'static TechniqueInfo,
+    gpu: &Gpu,
+    settings: &Settings,
+    samples: u32,
+) -> Result<Box<dyn Technique>, Error> {
+    if !info.hard {
+        let what = "brute force over light samples, since it is not a hard technique".into();
+        return Err(Error::Unsupported { technique: info.id.into(), what });
+    }
+    if samples == 0 || samples > MAX_SAMPLES {
+        return Err(Error::Size { what: "light samples".into(), size: samples.into(), limit: MAX_SAMPLES.into() });
+    }
+    let inner = info.make(gpu, settings)?;
+    Ok(Box::new(LightSamples::new(gpu, inner, samples)))
+}
+
+/// Half floats count whole numbers exactly up to here, and hard visibilities are whole.
+const MAX_SAMPLES: u32 = 2048;
+
+struct LightSamples {
+    gpu: Gpu,
+    inner: Box<dyn Technique>,
+    samples: u32,
+    lights: Vec<Light>,
+    module: wgpu::ShaderModule,
+    layout: wgpu::BindGroupLayout,
+    add: wgpu::RenderPipeline,
+    /// Divides by the number of lights, which a hard light makes 1 whatever was asked for.
+    mean: Option<(usize, wgpu::RenderPipeline)>,
+    targets: Option<Targets>,
+    stats: Stats,
+}
+
+/// One sample's visibility and the sum so far.
+struct Targets {
+    one: VisibilityTarget,
+    sum: VisibilityTarget,
+    read_one: wgpu::BindGroup,
+    read_sum: wgpu::BindGroup,
+}
+
+impl LightSamples {
+    fn new(gpu: &Gpu, inner: Box<dyn Technique>, samples: u32) -> Self {
+        let module = SHADER.module(gpu);
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("visibility"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::FRAGMENT,
+                ty: wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+                count: None,
+            }],
+        });
+        let add = pipeline(gpu, &module, &layout, "add", &[]);
+        let gpu = gpu.clone();
+        Self {
+            gpu,
+            inner,
+            samples,
+            lights: Vec::new(),
+            module,
+            layout,
+            add,
+            mean: None,
+            targets: None,
+            stats: Stats::default(),
+        }
+    }
+
+    fn targets(&self, (width, height): (u32, u32)) -> Result<Targets, Error> {
+        let one = VisibilityTarget::new(&self.gpu, width, height)?;
+        let sum = VisibilityTarget::new(&self.gpu, width, height)?;
+        let read = |target: &VisibilityTarget| {
+            self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("visibility"),
+                layout: &self.layout,
+                entries: &[wgpu::BindGroupEntry {
+                    binding: 0,
+                    resource: wgpu::BindingResource::TextureView(&target.view),
+                }],
+            })
+        };
+        let (read_one, read_sum) = (read(&one), read(&sum));
+        Ok(Targets { one, sum, read_one, read_sum })
+    }
+}
+
+impl Technique for LightSamples {
+    fn prepare(&mut self, _: &Gpu, view: &View<'_>) -> Result<(), Error> {
+        let shapes = hard_lights(&view.light.shape, view.textures, self.samples as usize);
+        self.lights.clear();
+        self.lights.extend(shapes.into_iter().map(|shape| Light { shape, ..view.light.clone() }));
+        if self.mean.as_ref().is_none_or(|(n, _)| *n != self.lights.len()) {
+            let constants = [("COUNT", self.lights.len().max(1) as f64)];
+            self.mean = Some((self.lights.len(), pipeline(&self.gpu, &self.module, &self.layout, "mean", &constants)));
+        }
+        if self.targets.as_ref().is_none_or(|t| t.one.size != view.receivers.size) {
+            self.targets = Some(self.targets(view.receivers.size)?);
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+        let (Some(targets), Some((_, mean))) = (&self.targets, &self.mean) else { return Ok(()) };
+        let mut stats = Stats::default();
+        for (i, light) in self.lights.iter().enumerate() {
+            let view = View { light, ..*view };
+            self.inner.prepare(&self.gpu, &view)?;
+            self.inner.record(passes, &view, &targets.one)?;
+            let load = if i == 0 { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
+            draw(passes, "add a sample", &self.add, &targets.read_one, &targets.sum.view, load);
+            let one = self.inner.stats();
+            stats.draws += one.draws + 1;
+            stats.triangles += one.triangles + 1;
+            stats.casters_drawn += one.casters_drawn;
+            stats.casters_culled += one.casters_culled;
+            stats.bytes = one.bytes;
+        }
+        let load = wgpu::LoadOp::Clear(wgpu::Color::WHITE);
+        draw(passes, "mean of samples", mean, &targets.read_sum, &visibility.view, load);
+        stats.bytes += targets.one.bytes() + targets.sum.bytes();
+        self.stats = stats;
+        Ok(())
+    }
+
+    fn stats(&self) -> Stats {
+        self.stats
+    }
+
+    fn light_views(&self) -> &[LightView] {
+        self.inner.light_views()
+    }
+
+    fn debug_views(&self) -> Vec<DebugView<'_>> {
+        self.inner.debug_views()
+    }
+}
+
+fn draw(
+    passes: &mut Passes<'_>,
+    label: &str,
+    pipeline: &wgpu::RenderPipeline,
+    read: &wgpu::BindGroup,
+    target: &wgpu::TextureView,
+    load: wgpu::LoadOp<wgpu::Color>,
+) {
+    let attachment = wgpu::RenderPassColorAttachment {
+        view: target,
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+    };
+    let mut pass = passes.render(label, &[Some(attachment)], None);
+    pass.set_pipeline(pipeline);
+    pass.set_bind_group(0, read, &[]);
+    pass.draw(0..3, 0..1);
+}
+
+fn pipeline(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    layout: &wgpu::BindGroupLayout,
+    entry: &str,
+    constants: &[(&str, f64)],
+) -> wgpu::RenderPipeline {
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        bind_group_layouts: &[Some(layout)],
+        ..Default::default()
+    });
+    let one = wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Add,
+    };
+    let adds = entry == "add";
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(entry),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("fullscreen"),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: Default::default(),
+        depth_stencil: None,
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(entry),
+            compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
+            targets: &[Some(wgpu::ColorTargetState {
+                format: VisibilityTarget::FORMAT,
+                blend: adds.then_some(wgpu::BlendState { color: one, alpha: one }),
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

@@ -1,0 +1,178 @@
+//! Depth, normals and materials of the visible surfaces; ambient and emitted light at once.
+
+use crate::casters::{CASTERS_WGSL, Casters, DrawList, Instance, MATERIAL_LAYOUT, MATERIALS_WGSL, Which};
+use crate::casters::{texture_layout, vertex_layouts};
+use crate::{gpu::Gpu, passes::Passes, shader::Shader, shader::shader_struct};
+use umbrage_core::glam::DMat4;
+use umbrage_core::{CameraView, Frustum};
+
+/// The shader.
+pub const SHADER: Shader = Shader {
+    name: "G-buffer",
+    parts: &[CASTERS_WGSL, MATERIALS_WGSL, include_str!("gbuffer.wgsl")],
+    layouts: &[GBufferView::LAYOUT, Instance::LAYOUT, MATERIAL_LAYOUT],
+};
+
+shader_struct! {
+    /// The camera as the vertex shader needs it.
+    pub(crate) struct GBufferView {
+        clip_from_world: [[f32; 4]; 4],
+        eye: [f32; 3],
+        spare: f32,
+        ambient: [f32; 3],
+        more_spare: f32,
+    }
+}
+
+const WIDE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+
+/// The targets and what draws them.
+pub(super) struct GBuffer {
+    pub(super) depth: wgpu::Texture,
+    pub(super) depth_view: wgpu::TextureView,
+    /// Geometric normal turned to the eye, and 1 where shadows fall.
+    pub(super) normal: wgpu::Texture,
+    pub(super) normal_view: wgpu::TextureView,
+    /// Shading normal and shininess.
+    pub(super) shading_view: wgpu::TextureView,
+    /// Base colour and specular strength.
+    pub(super) color_view: wgpu::TextureView,
+    /// Light that leaves the surface; every light adds to it.
+    pub(super) radiance_view: wgpu::TextureView,
+    pipelines: [wgpu::RenderPipeline; 2],
+    list: DrawList,
+    uniforms: wgpu::Buffer,
+    bind_group: wgpu::BindGroup,
+}
+
+impl GBuffer {
+    pub(super) fn new(gpu: &Gpu, width: u32, height: u32) -> Self {
+        let texture = |label, format| {
+            gpu.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(label),
+                size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+                    | wgpu::TextureUsages::TEXTURE_BINDING
+                    | wgpu::TextureUsages::COPY_SRC,
+                view_formats: &[],
+            })
+        };
+        let depth = texture("depth", wgpu::TextureFormat::Depth32Float);
+        let normal = texture("geometric normal", WIDE);
+        let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
+        let view_layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("camera"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            }],
+        });
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let uniforms = gpu.buffer("camera", &[GBufferView::default()], usage);
+        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("camera"),
+            layout: &view_layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniforms.as_entire_binding() }],
+        });
+        Self {
+            depth_view: view(&depth),
+            depth,
+            normal_view: view(&normal),
+            normal,
+            shading_view: view(&texture("shading normal", WIDE)),
+            color_view: view(&texture("base colour", WIDE)),
+            radiance_view: view(&texture("radiance", WIDE)),
+            pipelines: ["opaque", "masked"].map(|entry| pipeline(gpu, &view_layout, entry)),
+            list: DrawList::default(),
+            uniforms,
+            bind_group,
+        }
+    }
+
+    pub(super) fn record(
+        &mut self,
+        gpu: &Gpu,
+        passes: &mut Passes<'_>,
+        casters: &Casters,
+        camera: &CameraView,
+        ambient: [f32; 3],
+    ) {
+        let clip_from_world = camera.clip_from_world() * DMat4::from_translation(casters.origin);
+        self.list.fill(gpu, casters, Which::Visible, &Frustum::of(&camera.clip_from_world()));
+        self.list.upload(passes);
+        let data = GBufferView {
+            clip_from_world: clip_from_world.as_mat4().to_cols_array_2d(),
+            eye: (camera.eye - casters.origin).as_vec3().to_array(),
+            ambient,
+            ..GBufferView::default()
+        };
+        passes.upload(&self.uniforms, bytemuck::bytes_of(&data));
+        let clear = |view| {
+            Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
+            })
+        };
+        let depth = wgpu::RenderPassDepthStencilAttachment {
+            view: &self.depth_view,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+            stencil_ops: None,
+        };
+        let targets = [&self.normal_view, &self.shading_view, &self.color_view, &self.radiance_view].map(clear);
+        let mut pass = passes.render("gbuffer", &targets, Some(depth));
+        pass.set_bind_group(0, &self.bind_group, &[]);
+        self.list.draw(&mut pass, casters, true, |masked| &self.pipelines[usize::from(masked)]);
+    }
+}
+
+fn pipeline(gpu: &Gpu, view_layout: &wgpu::BindGroupLayout, entry: &str) -> wgpu::RenderPipeline {
+    let module = SHADER.module(gpu);
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        bind_group_layouts: &[Some(view_layout), Some(&Casters::layout(gpu)), Some(&texture_layout(gpu))],
+        ..Default::default()
+    });
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("G-buffer"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vertex"),
+            compilation_options: Default::default(),
+            buffers: &vertex_layouts(true),
+        },
+        primitive: Default::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: wgpu::TextureFormat::Depth32Float,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some(entry),
+            compilation_options: Default::default(),
+            targets: &[const {
+                Some(wgpu::ColorTargetState { format: WIDE, blend: None, write_mask: wgpu::ColorWrites::ALL })
+            }; 4],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

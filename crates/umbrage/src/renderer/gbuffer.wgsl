@@ -1,0 +1,80 @@
+// Depth, normals and materials of the visible surfaces.
+
+struct GBufferView {
+    // World space is that of the instances, relative to the scene's origin; so is the eye.
+    clip_from_world: mat4x4f,
+    eye: vec3f,
+    spare: f32,
+    ambient: vec3f,
+    more_spare: f32,
+}
+
+@group(0) @binding(0) var<uniform> gbuffer_view: GBufferView;
+
+struct Surface {
+    @builtin(position) position: vec4f,
+    @location(0) from_eye: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) uv: vec2f,
+    @location(3) @interpolate(flat) instance: u32,
+}
+
+struct Targets {
+    // Geometric normal turned to the eye; 1 where shadows fall.
+    @location(0) normal: vec4f,
+    // Shading normal; shininess.
+    @location(1) shading: vec4f,
+    // Base colour; specular strength.
+    @location(2) color: vec4f,
+    @location(3) radiance: vec4f,
+}
+
+@vertex
+fn vertex(
+    @location(0) position: vec3f,
+    @location(1) instance: u32,
+    @location(2) normal: vec3f,
+    @location(3) uv: vec2f,
+) -> Surface {
+    let world = world_from_mesh(instance, position);
+    return Surface(
+        gbuffer_view.clip_from_world * vec4f(world, 1.0),
+        world - gbuffer_view.eye,
+        world_normal_from_mesh(instance, normal),
+        uv,
+        instance,
+    );
+}
+
+fn targets(in: Surface, base: vec4f) -> Targets {
+    // The triangle's own normal, from how the position changes over the screen; never along the line of sight.
+    let cross_product = cross(dpdx(in.from_eye), dpdy(in.from_eye));
+    let face = cross_product * inverseSqrt(max(dot(cross_product, cross_product), 1e-38));
+    let geometric = select(face, -face, dot(face, in.from_eye) > 0.0);
+    let smooth_normal = in.normal * inverseSqrt(max(dot(in.normal, in.normal), 1e-38));
+    let shading = select(smooth_normal, -smooth_normal, dot(smooth_normal, geometric) < 0.0);
+    let material = materials[instances[in.instance].material];
+    let receives = f32(instances[in.instance].flags & RECEIVES);
+    return Targets(
+        vec4f(geometric, receives),
+        vec4f(shading, material.shininess),
+        vec4f(base.rgb, material.specular),
+        vec4f(material.emissive + gbuffer_view.ambient * base.rgb, 1.0),
+    );
+}
+
+@fragment
+fn opaque(in: Surface) -> Targets {
+    return targets(in, base_color(instances[in.instance].material, in.uv));
+}
+
+@fragment
+fn masked(in: Surface) -> Targets {
+    let material = instances[in.instance].material;
+    let base = base_color(material, in.uv);
+    let out = targets(in, base);
+    if is_cut_out(material, base.a) {
+        discard;
+    }
+    return out;
+}

@@ -1,0 +1,215 @@
+//! The built-in consumer of visibility: a G-buffer, each light added under its visibility, tone mapping.
+
+mod gbuffer;
+mod read;
+mod shading;
+mod tonemap;
+
+use crate::{
+    casters::Casters,
+    error::Error,
+    gpu::Gpu,
+    passes::{PassTime, Recorder},
+    receivers::Receivers,
+    shader::Shader,
+    technique::{DebugView, Stats, Technique},
+    view::View,
+    visibility::VisibilityTarget,
+};
+use gbuffer::GBuffer;
+use shading::Shading;
+use std::time::Instant;
+use tonemap::ToneMap;
+use umbrage_core::{Camera, Image, Light, Scene, Texture};
+
+/// Shaders of the renderer, for tests.
+pub const SHADERS: &[Shader] = &[gbuffer::SHADER, shading::SHADER, tonemap::SHADER];
+
+/// One light and the technique that shadows it.
+pub struct LightPass {
+    /// Index into [`Scene::lights`].
+    pub light: usize,
+    /// Finds its visibility.
+    pub technique: Box<dyn Technique>,
+}
+
+/// Renders a scene with any technique for each of its lights.
+pub struct Renderer {
+    gpu: Gpu,
+    casters: Casters,
+    gbuffer: GBuffer,
+    receivers: Receivers,
+    shading: Shading,
+    tonemap: ToneMap,
+    recorder: Recorder,
+    lights: Vec<Lit>,
+    /// Kept only where a light is textured.
+    textures: Vec<Texture>,
+    ambient: [f32; 3],
+    prepare_ms: f64,
+}
+
+/// A light, its technique and what came out.
+struct Lit {
+    number: usize,
+    light: Light,
+    technique: Box<dyn Technique>,
+    visibility: VisibilityTarget,
+    slot: shading::Slot,
+}
+
+impl Renderer {
+    /// Uploads `scene` and makes targets of `width` × `height`. Lights without a pass do not shine; the same light may
+    /// come once only.
+    ///
+    /// # Errors
+    /// [`Error::Size`] beyond the adapter's limits, [`Error::Scene`] for a light that is not there.
+    pub fn new(gpu: &Gpu, scene: &Scene, width: u32, height: u32, lights: Vec<LightPass>) -> Result<Self, Error> {
+        gpu.check_size("the picture", width, height)?;
+        let casters = Casters::new(gpu, scene)?;
+        let gbuffer = GBuffer::new(gpu, width, height);
+        let receivers = Receivers::new(gpu, &gbuffer.depth_view, Some(&gbuffer.normal_view), (width, height));
+        let shading = Shading::new(gpu, &gbuffer);
+        let tonemap = ToneMap::new(gpu, &gbuffer, width, height);
+        let textured =
+            scene.lights.iter().any(|l| matches!(l.shape, umbrage_core::LightShape::Rect { texture: Some(_), .. }));
+        let lights = lights.into_iter().map(|pass| {
+            let light = scene.lights.get(pass.light).cloned().ok_or_else(|| {
+                let count = scene.lights.len();
+                Error::Scene(format!("no light {} in the scene; it has {count}, counted from 0", pass.light))
+            })?;
+            let visibility = VisibilityTarget::new(gpu, width, height)?;
+            let slot = shading.slot(gpu, &visibility);
+            Ok(Lit { number: pass.light, light, technique: pass.technique, visibility, slot })
+        });
+        Ok(Self {
+            lights: lights.collect::<Result<_, Error>>()?,
+            gpu: gpu.clone(),
+            casters,
+            gbuffer,
+            receivers,
+            shading,
+            tonemap,
+            recorder: Recorder::new(gpu),
+            textures: if textured { scene.textures.clone() } else { Vec::new() },
+            ambient: scene.ambient.to_array(),
+            prepare_ms: 0.0,
+        })
+    }
+
+    /// Draws and submits one frame without waiting for it.
+    ///
+    /// # Errors
+    /// What the techniques give; [`Error::DeviceLost`] and [`Error::Driver`].
+    pub fn frame(&mut self, camera: &Camera) -> Result<(), Error> {
+        self.gpu.check()?;
+        let (width, height) = self.receivers.size;
+        let camera = camera.view(width, height);
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        let mut passes = self.recorder.begin(&mut encoder);
+        passes.owner("gbuffer");
+        self.gbuffer.record(&self.gpu, &mut passes, &self.casters, &camera, self.ambient);
+        self.prepare_ms = 0.0;
+        for lit in &mut self.lights {
+            passes.owner(format!("light {}", lit.number));
+            let view = View {
+                camera,
+                receivers: &self.receivers,
+                casters: &self.casters,
+                light: &lit.light,
+                textures: &self.textures,
+            };
+            let start = Instant::now();
+            lit.technique.prepare(&self.gpu, &view)?;
+            self.prepare_ms += start.elapsed().as_secs_f64() * 1e3;
+            lit.technique.record(&mut passes, &view, &lit.visibility)?;
+            passes.owner("shading");
+            self.shading.record(&mut passes, &self.gbuffer, &view, &lit.slot);
+        }
+        passes.owner("shading");
+        self.tonemap.record(&mut passes);
+        passes.finish();
+        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.check()
+    }
+
+    /// Waits until submitted frames are done.
+    ///
+    /// # Errors
+    /// [`Error::DeviceLost`] and [`Error::Driver`].
+    pub fn wait(&self) -> Result<(), Error> {
+        self.gpu.wait()
+    }
+
+    /// GPU times of the newest frame that is done; see [`Recorder::times`].
+    pub fn times(&mut self) -> Vec<PassTime> {
+        self.recorder.times()
+    }
+
+    /// CPU time of all techniques' `prepare` in the last frame, milliseconds.
+    pub fn prepare_ms(&self) -> f64 {
+        self.prepare_ms
+    }
+
+    /// What the technique of pass number `pass` drew and holds.
+    pub fn stats(&self, pass: usize) -> Stats {
+        self.lights.get(pass).map(|l| l.technique.stats()).unwrap_or_default()
+    }
+
+    /// The technique of pass number `pass`.
+    pub fn technique(&self, pass: usize) -> Option<&dyn Technique> {
+        self.lights.get(pass).map(|l| &*l.technique)
+    }
+
+    /// The scene's geometry on the GPU, to move instances.
+    pub fn casters_mut(&mut self) -> &mut Casters {
+        &mut self.casters
+    }
+
+    /// The light of pass number `pass`, to move it.
+    pub fn light_mut(&mut self, pass: usize) -> Option<&mut Light> {
+        self.lights.get_mut(pass).map(|l| &mut l.light)
+    }
+
+    /// The tone-mapped picture, sRGB and opaque.
+    ///
+    /// # Errors
+    /// As [`Renderer::wait`]; so do all that read back.
+    pub fn color(&self) -> Result<Image<[u8; 4]>, Error> {
+        read::rgba8(&self.gpu, &self.tonemap.texture)
+    }
+
+    /// The visibility that pass number `pass` left, 0…1. What non-receiving surfaces hold means nothing.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where there is no such pass.
+    pub fn visibility(&self, pass: usize) -> Result<Image<f32>, Error> {
+        let lit = self.lights.get(pass).ok_or_else(|| Error::Scene(format!("there is no light pass {pass}")))?;
+        read::one_channel(&self.gpu, &lit.visibility.texture, 0)
+    }
+
+    /// Depth along the view direction in metres, 0 where nothing is.
+    ///
+    /// # Errors
+    /// As [`Renderer::color`].
+    pub fn depth(&self, camera: &Camera) -> Result<Image<f32>, Error> {
+        let stored = read::one_channel(&self.gpu, &self.gbuffer.depth, 0)?;
+        Ok(stored.map(|d| if *d > 0.0 { camera.near as f32 / d } else { 0.0 }))
+    }
+
+    /// Geometric normals turned to the camera; zero where nothing is.
+    ///
+    /// # Errors
+    /// As [`Renderer::color`].
+    pub fn normal(&self) -> Result<Image<[f32; 3]>, Error> {
+        Ok(read::four_channels(&self.gpu, &self.gbuffer.normal)?.map(|n| [n[0], n[1], n[2]]))
+    }
+
+    /// A picture of the inside of a technique, as it is stored.
+    ///
+    /// # Errors
+    /// As [`Renderer::color`].
+    pub fn read_debug_view(&self, view: &DebugView<'_>) -> Result<Image<f32>, Error> {
+        read::one_channel(&self.gpu, view.texture, view.layer)
+    }
+}

@@ -1,0 +1,78 @@
+//! Pictures back from the GPU. For files and tests; waits for the device.
+
+use crate::{error::Error, gpu::Gpu};
+use half::f16;
+use umbrage_core::Image;
+
+/// 8-bit colour.
+pub(super) fn rgba8(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[u8; 4]>, Error> {
+    let bytes = rows(gpu, texture, 0)?;
+    Ok(image(texture, bytes.as_chunks::<4>().0.to_vec()))
+}
+
+/// Depth or a single float channel, full or half.
+pub(super) fn one_channel(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Result<Image<f32>, Error> {
+    let bytes = rows(gpu, texture, layer)?;
+    let data = match texture.format() {
+        wgpu::TextureFormat::R16Float => halves(&bytes),
+        wgpu::TextureFormat::R32Float | wgpu::TextureFormat::Depth32Float => {
+            bytes.as_chunks::<4>().0.iter().map(|b| f32::from_le_bytes(*b)).collect()
+        }
+        other => return Err(Error::Driver(format!("pictures of {other:?} textures can't be read back"))),
+    };
+    Ok(image(texture, data))
+}
+
+/// Four half-float channels.
+pub(super) fn four_channels(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[f32; 4]>, Error> {
+    let bytes = rows(gpu, texture, 0)?;
+    Ok(image(texture, halves(&bytes).as_chunks::<4>().0.to_vec()))
+}
+
+fn halves(bytes: &[u8]) -> Vec<f32> {
+    bytes.as_chunks::<2>().0.iter().map(|b| f16::from_le_bytes(*b).to_f32()).collect()
+}
+
+fn image<T>(texture: &wgpu::Texture, data: Vec<T>) -> Image<T> {
+    Image { width: texture.width(), height: texture.height(), data }
+}
+
+/// The texels of a layer without padding between rows.
+fn rows(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Result<Vec<u8>, Error> {
+    let (width, height) = (texture.width(), texture.height());
+    let texel = texture.format().block_copy_size(Some(wgpu::TextureAspect::All)).unwrap_or(4);
+    let row = width * texel;
+    let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("picture back"),
+        size: u64::from(padded) * u64::from(height),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    encoder.copy_texture_to_buffer(
+        wgpu::TexelCopyTextureInfo {
+            texture,
+            mip_level: 0,
+            origin: wgpu::Origin3d { x: 0, y: 0, z: layer },
+            aspect: wgpu::TextureAspect::All,
+        },
+        wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded), rows_per_image: None },
+        },
+        wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+    );
+    gpu.queue.submit([encoder.finish()]);
+    let (sender, receiver) = std::sync::mpsc::channel();
+    buffer.slice(..).map_async(wgpu::MapMode::Read, move |result| {
+        // The receiver waits below; if it is gone the device was lost, which is reported there.
+        let _ = sender.send(result);
+    });
+    gpu.wait()?;
+    let failed = || Error::Driver("a picture could not be read back".into());
+    receiver.recv().map_err(|_| failed())?.map_err(|_| failed())?;
+    let mapped = buffer.slice(..).get_mapped_range().map_err(|_| failed())?;
+    let bytes = mapped.chunks(padded as usize).flat_map(|r| &r[..row as usize]).copied().collect();
+    Ok(bytes)
+}

@@ -1,0 +1,66 @@
+//! WGSL put together from named modules by concatenation, and the host structs that have to match it.
+
+use crate::gpu::Gpu;
+
+/// `wgsl/fullscreen.wgsl`: one triangle that covers the target.
+pub const FULLSCREEN: &str = include_str!("wgsl/fullscreen.wgsl");
+/// `wgsl/receivers.wgsl`: group 0, the visible surfaces.
+pub const RECEIVERS: &str = include_str!("wgsl/receivers.wgsl");
+/// `wgsl/map_lookup.wgsl`: group 1, where a receiver lies in the maps of a light. After [`RECEIVERS`].
+pub const MAP_LOOKUP: &str = include_str!("wgsl/map_lookup.wgsl");
+
+/// One shader: plain WGSL modules, later ones using names of earlier ones.
+#[derive(Clone, Copy, Debug)]
+pub struct Shader {
+    /// For messages and labels.
+    pub name: &'static str,
+    /// Module sources.
+    pub parts: &'static [&'static str],
+    /// Host structs that the shader reads; a test compares them with the WGSL of the same name.
+    pub layouts: &'static [HostLayout],
+}
+
+impl Shader {
+    /// The whole source.
+    pub fn source(&self) -> String {
+        self.parts.join("\n")
+    }
+
+    /// Compiles it.
+    pub fn module(&self, gpu: &Gpu) -> wgpu::ShaderModule {
+        gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(self.name),
+            source: wgpu::ShaderSource::Wgsl(self.source().into()),
+        })
+    }
+}
+
+/// Name, members (name, byte offset, byte size) and size of a struct on the host's side.
+#[derive(Clone, Copy, Debug)]
+pub struct HostLayout {
+    /// The struct's name, the same in WGSL.
+    pub name: &'static str,
+    /// Members in order.
+    pub members: &'static [(&'static str, usize, usize)],
+    /// Bytes in all.
+    pub size: usize,
+}
+
+/// Declares a struct that a shader reads, together with its [`HostLayout`].
+macro_rules! shader_struct {
+    ($(#[$doc:meta])* pub(crate) struct $name:ident { $($(#[$field_doc:meta])* $field:ident: $type:ty,)* }) => {
+        $(#[$doc])*
+        #[repr(C)]
+        #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+        pub(crate) struct $name { $($(#[$field_doc])* pub $field: $type,)* }
+
+        impl $name {
+            pub(crate) const LAYOUT: $crate::shader::HostLayout = $crate::shader::HostLayout {
+                name: stringify!($name),
+                members: &[$((stringify!($field), std::mem::offset_of!($name, $field), size_of::<$type>()),)*],
+                size: size_of::<$name>(),
+            };
+        }
+    };
+}
+pub(crate) use shader_struct;

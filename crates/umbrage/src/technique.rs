@@ -1,0 +1,130 @@
+//! What a technique is.
+
+use crate::{
+    error::Error, gpu::Gpu, params::Param, params::Settings, passes::Passes, shader::Shader, view::View,
+    visibility::VisibilityTarget,
+};
+use umbrage_core::{LightKind, LightKinds, light_view::LightView};
+
+/// Finds which share of one light each visible point sees.
+///
+/// A frame is `prepare`, then `record`; both with the same view.
+pub trait Technique: Send {
+    /// Everything the CPU does for this frame: fits light views, chooses casters, makes room. Creates GPU objects only
+    /// in the first frame or when a size changes.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for a light or view that the technique can't do, [`Error::Size`] beyond the limits.
+    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error>;
+
+    /// Records the passes that leave the light's visibility in `visibility`.
+    ///
+    /// # Errors
+    /// As [`Technique::prepare`].
+    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error>;
+
+    /// What the last frame drew and what is held.
+    fn stats(&self) -> Stats;
+
+    /// The views of the light that the last frame rendered maps for; empty for techniques without maps. The
+    /// measurement uses them to tell how large a texel is on the screen.
+    fn light_views(&self) -> &[LightView] {
+        &[]
+    }
+
+    /// Pictures of what is inside.
+    fn debug_views(&self) -> Vec<DebugView<'_>> {
+        Vec::new()
+    }
+}
+
+/// Cost of a frame apart from time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Stats {
+    /// Draw calls.
+    pub draws: u32,
+    /// Triangles sent to the GPU.
+    pub triangles: u64,
+    /// Casters drawn, counted once for every view of the light.
+    pub casters_drawn: u32,
+    /// Casters left out because no view of the light sees them.
+    pub casters_culled: u32,
+    /// GPU memory held by the technique, without casters, receivers and target.
+    pub bytes: u64,
+}
+
+/// A texture worth looking at.
+#[derive(Clone, Copy, Debug)]
+pub struct DebugView<'a> {
+    /// What users ask for, such as `map-0`.
+    pub name: &'static str,
+    /// The texture: a depth or a float format.
+    pub texture: &'a wgpu::Texture,
+    /// Which layer of it.
+    pub layer: u32,
+}
+
+/// Everything the program knows of a technique; one constant in its folder.
+pub struct TechniqueInfo {
+    /// What users type.
+    pub id: &'static str,
+    /// What people read.
+    pub title: &'static str,
+    /// One sentence.
+    pub summary: &'static str,
+    /// Where it is from.
+    pub source: &'static str,
+    /// The kinds of light it can do; soft kinds done as hard ones from their centre count.
+    pub lights: LightKinds,
+    /// Features it can't do without.
+    pub features: wgpu::Features,
+    /// True where it gives 0 or 1 from one point of the light, so that `light_samples` makes sense.
+    pub hard: bool,
+    /// Its parameters.
+    pub params: &'static [Param],
+    /// Its shaders.
+    pub shaders: &'static [Shader],
+    /// Its README.
+    pub readme: &'static str,
+    /// Makes one.
+    pub make: fn(&Gpu, &Settings) -> Result<Box<dyn Technique>, Error>,
+}
+
+impl std::fmt::Debug for TechniqueInfo {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("TechniqueInfo").field("id", &self.id).finish_non_exhaustive()
+    }
+}
+
+impl TechniqueInfo {
+    /// Checked settings from pairs of name and value; what is not named keeps its default.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] and [`Error::Setting`].
+    pub fn settings(&self, set: &[(String, String)]) -> Result<Settings, Error> {
+        Settings::parse(self.id, self.params, set)
+    }
+
+    /// A technique with these settings.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] where the device lacks a feature; [`Error::Size`] beyond its limits.
+    pub fn make(&self, gpu: &Gpu, settings: &Settings) -> Result<Box<dyn Technique>, Error> {
+        if !gpu.has(self.features) {
+            let what = format!("this adapter, which lacks {:?}", self.features - gpu.device.features());
+            return Err(Error::Unsupported { technique: self.id.into(), what });
+        }
+        (self.make)(gpu, settings)
+    }
+
+    /// Whether it can do lights of this kind.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] naming the kind.
+    pub fn supports(&self, kind: LightKind) -> Result<(), Error> {
+        if self.lights.contains(kind) {
+            return Ok(());
+        }
+        Err(Error::Unsupported { technique: self.id.into(), what: format!("{} lights", kind.name()) })
+    }
+}

@@ -1,0 +1,67 @@
+// Percentage-closer filtering: the share of compares that pass around the receiver (ZA 3.2, FE 2.3.1).
+
+// 2, 3, 5, 7: a square of that many bilinear compares a side; 0: a disc.
+override KERNEL: u32 = 3u;
+// Of the disc.
+override TAPS: u32 = 16u;
+override RADIUS: f32 = 2.5;
+
+// Four compares around the corner between texels (corner − 1, corner), in the order of textureGather.
+fn gather(point: MapPoint, corner: vec2f, bias: f32) -> vec4f {
+    let reference = point.depth + dot(point.slope, corner - point.texel) + bias;
+    return textureGatherCompare(map_depth, map_compare, corner / map.size, point.layer, reference);
+}
+
+// A box of KERNEL × KERNEL bilinear compares. Together they are the (KERNEL + 1)² texels around, each weighted by its
+// overlap with the box: inner ones whole, those at the border by the fraction. Gathers fetch them four at a time.
+fn square(point: MapPoint, bias: f32) -> f32 {
+    let base = floor(point.texel - 0.5);
+    let f = point.texel - 0.5 - base;
+    let half_kernel = i32(KERNEL / 2u);
+    var sum = 0.0;
+    for (var y = -half_kernel; y <= half_kernel + 1; y += 2) {
+        // Weights of the two rows of this gather.
+        let rows = vec2f(select(1.0, 1.0 - f.y, y == -half_kernel), select(1.0, f.y, y == half_kernel));
+        for (var x = -half_kernel; x <= half_kernel + 1; x += 2) {
+            let columns = vec2f(select(1.0, 1.0 - f.x, x == -half_kernel), select(1.0, f.x, x == half_kernel));
+            let lit = gather(point, base + vec2f(f32(x), f32(y)) + 1.0, bias);
+            sum += rows.y * (columns.x * lit.x + columns.y * lit.y) + rows.x * (columns.x * lit.w + columns.y * lit.z);
+        }
+    }
+    return sum / f32(KERNEL * KERNEL);
+}
+
+// Points spread evenly over a disc along a golden spiral (Vogel), turned for every pixel so that steps become grain.
+fn disc(point: MapPoint, at: vec2f, bias: f32) -> f32 {
+    let turn = fract(52.9829189 * fract(dot(at, vec2f(0.06711056, 0.00583715)))) * 6.2831853;
+    var sum = 0.0;
+    for (var i = 0u; i < TAPS; i++) {
+        let angle = turn + f32(i) * 2.3999632;
+        let offset = RADIUS * sqrt((f32(i) + 0.5) / f32(TAPS)) * vec2f(cos(angle), sin(angle));
+        let reference = point.depth + dot(point.slope, offset) + bias;
+        sum += textureSampleCompareLevel(map_depth, map_compare, (point.texel + offset) / map.size, point.layer, reference);
+    }
+    return sum / f32(TAPS);
+}
+
+@fragment
+fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
+    let depth = textureLoad(receiver_depth, vec2i(at.xy), 0);
+    if depth == map.eye.background_depth {
+        return 1.0;
+    }
+    let position = position_eye(map.eye, at.xy, depth);
+    let point = map_point(position, normal_world(map.eye, at.xy, depth));
+    if !point.is_covered {
+        return 1.0;
+    }
+    // Bilinear compares share one reference depth between texels half a texel away from it.
+    let bias = map_bias(point, 1.0 + CREASE);
+    if KERNEL == 0u {
+        return disc(point, at.xy, bias);
+    }
+    if KERNEL == 2u {
+        return textureSampleCompareLevel(map_depth, map_compare, point.texel / map.size, point.layer, point.depth + bias);
+    }
+    return square(point, bias);
+}

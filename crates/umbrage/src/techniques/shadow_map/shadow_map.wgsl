@@ -1,0 +1,19 @@
+// One compare with the nearest texel.
+
+@fragment
+fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
+    let depth = textureLoad(receiver_depth, vec2i(at.xy), 0);
+    if depth == map.eye.background_depth {
+        return 1.0;
+    }
+    let position = position_eye(map.eye, at.xy, depth);
+    let point = map_point(position, normal_world(map.eye, at.xy, depth));
+    if !point.is_covered {
+        return 1.0;
+    }
+    let texel = vec2i(point.texel);
+    // The receiver's plane at the middle of the texel, where the stored depth was taken.
+    let at_center = point.depth + dot(point.slope, vec2f(texel) + 0.5 - point.texel);
+    let stored = textureLoad(map_depth, texel, point.layer, 0);
+    return select(0.0, 1.0, at_center + map_bias(point, CREASE) >= stored);
+}

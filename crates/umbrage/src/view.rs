@@ -1,0 +1,29 @@
+//! One light seen from one camera: all that a technique works on.
+
+use crate::{casters::Casters, receivers::Receivers};
+use umbrage_core::glam::DMat4;
+use umbrage_core::{CameraView, Light, Texture};
+
+/// Camera, receivers, casters and the one light whose visibility is asked for.
+#[derive(Clone, Copy)]
+pub struct View<'a> {
+    /// The camera that made the receivers.
+    pub camera: CameraView,
+    /// Depth and normals of the visible surfaces.
+    pub receivers: &'a Receivers,
+    /// What throws shadows.
+    pub casters: &'a Casters,
+    /// The light.
+    pub light: &'a Light,
+    /// Pictures that textured lights refer to; may be empty where there are none.
+    pub textures: &'a [Texture],
+}
+
+impl View<'_> {
+    /// Camera-relative space to clip space: the camera's rotation and projection without its place. Working relative
+    /// to the eye keeps single precision exact near the camera, however far that is from the origin.
+    pub fn clip_from_eye(&self) -> DMat4 {
+        let rotation = DMat4::from_mat3(self.camera.view_from_world.matrix3);
+        self.camera.clip_from_view * rotation
+    }
+}

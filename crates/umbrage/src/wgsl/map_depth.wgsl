@@ -1,0 +1,39 @@
+// Renders casters into a depth map seen from the light.
+
+struct MapView {
+    clip_from_world: mat4x4f,
+}
+
+@group(0) @binding(0) var<uniform> map_view: MapView;
+
+struct Masked {
+    @builtin(position) position: vec4f,
+    @location(0) uv: vec2f,
+    @location(1) @interpolate(flat) material: u32,
+}
+
+fn map_position(instance: u32, position: vec3f) -> vec4f {
+    return map_view.clip_from_world * vec4f(world_from_mesh(instance, position), 1.0);
+}
+
+@vertex
+fn opaque(@location(0) position: vec3f, @location(1) instance: u32) -> @builtin(position) vec4f {
+    return map_position(instance, position);
+}
+
+@vertex
+fn masked(
+    @location(0) position: vec3f,
+    @location(1) instance: u32,
+    @location(2) normal: vec3f,
+    @location(3) uv: vec2f,
+) -> Masked {
+    return Masked(map_position(instance, position), uv, instances[instance].material);
+}
+
+@fragment
+fn cut_out(in: Masked) {
+    if is_cut_out(in.material, base_color(in.material, in.uv).a) {
+        discard;
+    }
+}
