@@ -1,7 +1,7 @@
 //! Triangle meshes.
 
 use crate::bounds::Bounds;
-use glam::{Vec2, Vec3};
+use glam::{DAffine3, Vec2, Vec3};
 
 /// Indexed triangles in the mesh's own space.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,16 +47,63 @@ impl Mesh {
         }
         self.normals = vec![Vec3::ZERO; self.positions.len()];
         for t in self.indices.as_chunks::<3>().0 {
-            let p = t.map(|i| self.positions[i as usize]);
-            let face = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero();
+            let corners = t.map(|i| self.positions[i as usize]);
             for k in 0..3 {
-                let to = |j: usize| (p[(k + j) % 3] - p[k]).normalize_or_zero();
-                self.normals[t[k] as usize] += face * to(1).dot(to(2)).clamp(-1.0, 1.0).acos();
+                self.normals[t[k] as usize] += face_normal(corners) * angle_at(corners, k);
             }
         }
         for n in &mut self.normals {
             *n = n.normalize_or(Vec3::Y);
         }
+    }
+
+    /// The same triangles with normals made anew: smooth over edges that bend by less than `crease_deg` degrees,
+    /// sharp over the others, where vertices are split. Triangles that share a vertex index are neighbours.
+    pub fn with_creases(&self, crease_deg: f32) -> Mesh {
+        let least_cos = crease_deg.to_radians().cos();
+        let triangles: Vec<[u32; 3]> = self.triangles().collect();
+        let faces: Vec<Vec3> = triangles.iter().map(|t| face_normal(self.corners(*t))).collect();
+        let mut around = vec![Vec::new(); self.positions.len()];
+        for (face, t) in triangles.iter().enumerate() {
+            for k in 0..3 {
+                around[t[k] as usize].push((face, angle_at(self.corners(*t), k)));
+            }
+        }
+        let mut mesh = Mesh { name: self.name.clone(), ..Mesh::default() };
+        let mut made: Vec<Vec<u32>> = vec![Vec::new(); self.positions.len()];
+        for (face, t) in triangles.iter().enumerate() {
+            for v in t.map(|i| i as usize) {
+                let smooth = around[v].iter().filter(|(other, _)| faces[*other].dot(faces[face]) >= least_cos);
+                let sum: Vec3 = smooth.map(|(other, angle)| faces[*other] * *angle).sum();
+                let normal = sum.normalize_or(Vec3::Y);
+                let same = made[v].iter().copied().find(|&i| mesh.normals[i as usize] == normal);
+                mesh.indices.push(same.unwrap_or_else(|| {
+                    let new = mesh.positions.len() as u32;
+                    made[v].push(new);
+                    mesh.positions.push(self.positions[v]);
+                    mesh.normals.push(normal);
+                    mesh.uvs.extend(self.uvs.get(v));
+                    new
+                }));
+            }
+        }
+        mesh
+    }
+
+    /// The mesh moved by `transform`; a mirroring one turns the triangles round, so that fronts stay fronts.
+    pub fn transformed(&self, transform: &DAffine3) -> Mesh {
+        let mut mesh = self.clone();
+        let normal_matrix = transform.matrix3.inverse().transpose();
+        for p in &mut mesh.positions {
+            *p = transform.transform_point3(p.as_dvec3()).as_vec3();
+        }
+        for n in &mut mesh.normals {
+            *n = (normal_matrix * n.as_dvec3()).as_vec3().normalize_or(Vec3::Y);
+        }
+        if transform.matrix3.determinant() < 0.0 {
+            mesh.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|t| t.swap(1, 2));
+        }
+        mesh
     }
 
     /// Appends the triangles of `other`, as they are.
@@ -74,9 +121,22 @@ impl Mesh {
     }
 }
 
+/// Unit normal of a triangle's front; zero where it has no area.
+fn face_normal([a, b, c]: [Vec3; 3]) -> Vec3 {
+    (b - a).cross(c - a).normalize_or_zero()
+}
+
+/// Angle of a triangle at its corner `k`, radians.
+fn angle_at(corners: [Vec3; 3], k: usize) -> f32 {
+    let to = |j: usize| (corners[(k + j) % 3] - corners[k]).normalize_or_zero();
+    to(1).dot(to(2)).clamp(-1.0, 1.0).acos()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::primitive;
+    use glam::DVec3;
 
     #[test]
     fn generated_normals_of_a_flat_quad_are_its_own() {
@@ -87,6 +147,37 @@ mod tests {
         };
         m.generate_normals_if_absent();
         assert!(m.normals.iter().all(|n| (*n - Vec3::Y).length() < 1e-6), "{:?}", m.normals);
+    }
+
+    #[test]
+    fn creases_split_a_welded_cube_and_leave_a_sphere_smooth() {
+        let welded = Mesh {
+            positions: (0..8).map(|i| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32)).collect(),
+            indices: vec![
+                0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1,
+                7, 5,
+            ],
+            ..Mesh::default()
+        };
+        let sharp = welded.with_creases(60.0);
+        assert_eq!((sharp.positions.len(), sharp.triangle_count()), (24, 12));
+        assert!(sharp.normals.iter().all(|n| n.abs().max_element() == 1.0), "{:?}", sharp.normals);
+        assert_eq!(welded.with_creases(91.0).positions.len(), 8);
+        let sphere = primitive::sphere(32, 16).with_creases(60.0);
+        for (p, n) in sphere.positions.iter().zip(&sphere.normals) {
+            assert!(p.dot(*n) > 0.98, "normal {n} at {p}");
+        }
+    }
+
+    #[test]
+    fn a_mirrored_mesh_still_faces_outwards() {
+        let t = DAffine3::from_scale(DVec3::new(-2.0, 1.0, 3.0));
+        let mesh = primitive::sphere(16, 8).transformed(&t);
+        for t in mesh.triangles() {
+            let corners = mesh.corners(t);
+            assert!(face_normal(corners).dot(corners[0]) > 0.0);
+            assert!(t.iter().all(|&i| face_normal(corners).dot(mesh.normals[i as usize]) > 0.0));
+        }
     }
 
     #[test]
