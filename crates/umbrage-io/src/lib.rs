@@ -11,6 +11,7 @@ mod mtl;
 mod obj;
 pub mod pictures;
 mod scene_file;
+pub mod stored;
 
 pub use error::{Error, Place};
 

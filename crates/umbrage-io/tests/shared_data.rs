@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use umbrage_io::stored::StoredReference;
 
 /// The folder, or `None` with a line that says which test was skipped.
 fn shared(test: &str) -> Option<PathBuf> {
@@ -79,4 +80,30 @@ fn models_open_with_all_their_triangles() {
         println!("{name}: {:.1} ms, {:?}", start.elapsed().as_secs_f64() * 1e3, opened.notes);
         assert_eq!(opened.scene.triangle_count(), triangles, "{name}");
     }
+}
+
+#[test]
+fn every_stored_reference_opens_and_fits_its_scene() {
+    let Some(dir) = shared("every_stored_reference_opens_and_fits_its_scene") else { return };
+    let dir = dir.join("references");
+    let stored = umbrage_io::stored::list(&dir).unwrap();
+    assert!(stored.len() >= 15 && stored["bunny"] == [0, 1], "{stored:?}");
+    for (name, lights) in stored {
+        for light in lights {
+            let r = StoredReference::open(&dir, &name, light).unwrap_or_else(|e| panic!("{e}"));
+            let scene = umbrage_io::open(&r.scene).unwrap().scene;
+            let camera = &scene.camera;
+            assert!(camera.eye.distance(r.camera.eye) < 1e-12, "{name}: {:?}", r.camera);
+            assert!((camera.axes()[2] - r.camera.forward).length() < 1e-12, "{name}: {:?}", r.camera);
+            let largest = r.model.data.iter().max().copied().unwrap();
+            assert!(scene.instances.iter().any(|i| i.model == largest as usize), "{name}: no model {largest}");
+            let seen = |i: usize| r.depth.data[i] > 0.0 && glam::Vec3::from(r.normal.data[i]).is_normalized();
+            let scored = (0..r.mask.data.len()).filter(|&i| r.mask.data[i]);
+            assert!(scored.clone().count() > 50_000, "{name}: {} pixels are scored", scored.count());
+            assert!(scored.clone().all(|i| seen(i) && r.model.data[i] >= 0), "{name}: nothing is seen where scored");
+        }
+    }
+    let message = |scene: &str, light| StoredReference::open(&dir, scene, light).unwrap_err().to_string();
+    assert!(message("buny", 0).ends_with("did you mean `bunny`?"));
+    assert!(message("bunny", 7).ends_with("it has lights [0, 1]"));
 }

@@ -1,10 +1,14 @@
 //! Pictures from files.
 
 use crate::error::{self, Error};
+use exr::prelude::{AnyChannels, FlatSamples, MetaData, ReadChannels, ReadLayers};
 use image::{DynamicImage, ImageFormat, ImageReader};
 use std::io::Cursor;
 use std::path::Path;
-use umbrage_core::Texture;
+use umbrage_core::{Image, Texture};
+
+/// Larger EXR pictures are taken for damaged ones: their size is believed, and memory held, before their pixels are read.
+const MOST_PIXELS: usize = 1 << 28;
 
 /// Reads a PNG or JPEG as a texture; 16-bit pictures lose their lower half.
 ///
@@ -25,11 +29,52 @@ pub fn texture_from_bytes(name: &Path, bytes: &[u8]) -> Result<Texture, Error> {
     Ok(Texture { name: name.display().to_string(), width, height, rgba })
 }
 
+/// Reads a grey picture: an 8-bit or 16-bit PNG as 0…1, or an EXR with a channel `V`, `Y` or `Z`, or with one channel
+/// of any name, as it stands.
+///
+/// # Errors
+/// As [`load_texture`]; a picture in colour.
+pub fn load_grey(path: &Path) -> Result<Image<f32>, Error> {
+    let bytes = error::read(path)?;
+    if image::guess_format(&bytes).ok() == Some(ImageFormat::OpenExr) {
+        return Exr::decode(path, &bytes)?.grey(path);
+    }
+    let (width, height, data) = match decode(path, &bytes, &[ImageFormat::Png])? {
+        DynamicImage::ImageLuma8(p) => (p.width(), p.height(), p.iter().map(|v| f32::from(*v) / 255.0).collect()),
+        DynamicImage::ImageLuma16(p) => (p.width(), p.height(), p.iter().map(|v| f32::from(*v) / 65535.0).collect()),
+        _ => return Err(Error::new(path, "is a picture in colour").remedy("a grey one is needed, 8 or 16 bits")),
+    };
+    Ok(Image { width, height, data })
+}
+
+/// Reads a grey picture as a mask: true at one half and above.
+///
+/// # Errors
+/// As [`load_grey`].
+pub fn load_mask(path: &Path) -> Result<Image<bool>, Error> {
+    load_grey(path).map(|image| image.map(|v| *v >= 0.5))
+}
+
+/// Reads a linear picture in colour: an EXR with channels R, G and B, or an HDR (Radiance).
+///
+/// # Errors
+/// As [`load_texture`].
+pub fn load_rgb(path: &Path) -> Result<Image<[f32; 3]>, Error> {
+    let bytes = error::read(path)?;
+    if image::guess_format(&bytes).ok() == Some(ImageFormat::OpenExr) {
+        return Exr::decode(path, &bytes)?.rgb(path);
+    }
+    let picture = decode(path, &bytes, &[ImageFormat::Hdr])?.into_rgb32f();
+    let (width, height) = picture.dimensions();
+    Ok(Image { width, height, data: picture.pixels().map(|p| p.0).collect() })
+}
+
 /// Decodes a picture of one of the `formats`, told by its first bytes.
 fn decode(name: &Path, bytes: &[u8], formats: &[ImageFormat]) -> Result<DynamicImage, Error> {
     let names: Vec<&str> = formats.iter().flat_map(|f| f.extensions_str().first()).copied().collect();
     let format = image::guess_format(bytes).ok().filter(|f| formats.contains(f)).ok_or_else(|| {
-        Error::new(name, "is not a picture of a known kind").remedy(format!("known are: {}", names.join(", ")))
+        Error::new(name, "is not a picture of a kind that can be read here")
+            .remedy(format!("such are: {}", names.join(", ")))
     })?;
     let picture = ImageReader::with_format(Cursor::new(bytes), format)
         .decode()
@@ -38,4 +83,123 @@ fn decode(name: &Path, bytes: &[u8], formats: &[ImageFormat]) -> Result<DynamicI
         return Err(Error::new(name, "has no pixels"));
     }
     Ok(picture)
+}
+
+/// An EXR with all channels of its first layer.
+struct Exr {
+    size: (u32, u32),
+    channels: Vec<(String, Vec<f32>)>,
+}
+
+impl Exr {
+    fn decode(path: &Path, bytes: &[u8]) -> Result<Self, Error> {
+        let damaged = |what: String| {
+            Error::new(path, format!("is damaged or cut off: {what}")).remedy("export it again, with flat pixels")
+        };
+        let meta = MetaData::read_from_buffered(bytes, false).map_err(|e| damaged(e.to_string()))?;
+        for header in &meta.headers {
+            let [width, height] = [header.layer_size.width(), header.layer_size.height()];
+            if width == 0 || height == 0 || width.saturating_mul(height) > MOST_PIXELS {
+                return Err(damaged(format!("its size is {width} × {height}")));
+            }
+        }
+        let layer = exr::prelude::read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .first_valid_layer()
+            .all_attributes()
+            .from_buffered(Cursor::new(bytes))
+            .map_err(|e| damaged(e.to_string()))?
+            .layer_data;
+        let AnyChannels { list }: AnyChannels<FlatSamples> = layer.channel_data;
+        let channels: Vec<(String, Vec<f32>)> =
+            list.iter().map(|c| (c.name.to_string(), c.sample_data.values_as_f32().collect())).collect();
+        let pixels = layer.size.area();
+        if let Some((name, _)) = channels.iter().find(|(_, values)| values.len() != pixels) {
+            return Err(damaged(format!("channel `{name}` is subsampled")));
+        }
+        Ok(Self { size: (layer.size.width() as u32, layer.size.height() as u32), channels })
+    }
+
+    fn channel(&self, name: &str) -> Option<&[f32]> {
+        self.channels.iter().find(|(n, _)| n == name).map(|(_, values)| values.as_slice())
+    }
+
+    fn missing(&self, path: &Path, wanted: &str) -> Error {
+        let names: Vec<&str> = self.channels.iter().map(|(n, _)| n.as_str()).collect();
+        Error::new(path, format!("has no channel {wanted} but {}", names.join(", ")))
+    }
+
+    fn grey(&self, path: &Path) -> Result<Image<f32>, Error> {
+        let only = || self.channels.first().filter(|_| self.channels.len() == 1).map(|(_, values)| values.as_slice());
+        let values = ["V", "Y", "Z"].iter().find_map(|n| self.channel(n)).or_else(only);
+        let data = values.ok_or_else(|| self.missing(path, "V, Y or Z"))?.to_vec();
+        Ok(Image { width: self.size.0, height: self.size.1, data })
+    }
+
+    fn rgb(&self, path: &Path) -> Result<Image<[f32; 3]>, Error> {
+        let channel = |name| self.channel(name).ok_or_else(|| self.missing(path, name));
+        let (r, g, b) = (channel("R")?, channel("G")?, channel("B")?);
+        let data = r.iter().zip(g).zip(b).map(|((&r, &g), &b)| [r, g, b]).collect();
+        Ok(Image { width: self.size.0, height: self.size.1, data })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pictures::{save_exr_rgb, save_grey16, save_png};
+
+    #[test]
+    fn an_hdr_is_read_as_linear_colour() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("sky.hdr");
+        let pixels = [image::Rgb([1.0, 2.0, 4.0]), image::Rgb([0.5, 0.25, 0.0])];
+        let mut bytes = Vec::new();
+        image::codecs::hdr::HdrEncoder::new(&mut bytes).encode(&pixels, 2, 1).unwrap();
+        std::fs::write(&path, bytes).unwrap();
+        let image = load_rgb(&path).unwrap();
+        for (got, want) in image.data.iter().zip(pixels) {
+            assert!(got.iter().zip(want.0).all(|(a, b)| (a - b).abs() <= 0.02 * b), "{got:?} for {want:?}");
+        }
+    }
+
+    #[test]
+    fn pictures_of_the_wrong_kind_are_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.png");
+        save_png(&path, &Image::filled(2, 2, [1u8, 2, 3])).unwrap();
+        assert!(load_grey(&path).unwrap_err().to_string().contains("in colour"));
+        assert!(load_rgb(&path).unwrap_err().to_string().ends_with("such are: hdr"));
+        std::fs::write(&path, "text").unwrap();
+        assert!(load_texture(&path).unwrap_err().to_string().contains("not a picture"));
+        save_exr_rgb(&path, &Image::filled(2, 2, [0.0; 3])).unwrap();
+        assert!(load_grey(&path).unwrap_err().to_string().contains("no channel V, Y or Z but B, G, R"));
+    }
+
+    #[test]
+    fn pictures_cut_off_anywhere_are_errors() {
+        let dir = tempfile::tempdir().unwrap();
+        let (png, exr) = (dir.path().join("a.png"), dir.path().join("a.exr"));
+        save_grey16(&png, &Image::from_fn(9, 9, |x, y| (x * y) as f32 / 64.0)).unwrap();
+        save_exr_rgb(&exr, &Image::from_fn(9, 9, |x, y| [x as f32, y as f32, 0.5])).unwrap();
+        let cut = dir.path().join("cut");
+        for (path, load) in
+            [(&png, (|p| load_grey(p).map(drop)) as fn(&Path) -> Result<(), Error>), (&exr, |p| load_rgb(p).map(drop))]
+        {
+            let whole = std::fs::read(path).unwrap();
+            for length in (0..whole.len() - 12).step_by(3) {
+                std::fs::write(&cut, &whole[..length]).unwrap();
+                assert!(load(&cut).is_err(), "{} cut off after {length} bytes", path.display());
+            }
+            for i in 0..whole.len() {
+                let mut damaged = whole.clone();
+                damaged[i] ^= 0x55;
+                std::fs::write(&cut, &damaged).unwrap();
+                // Some bytes are only names and dates: no error is fine, a panic is not.
+                let _ = load(&cut);
+            }
+        }
+    }
 }
