@@ -5,6 +5,7 @@
 
 mod defaults;
 mod error;
+mod gltf_file;
 mod lines;
 mod model;
 mod mtl;

@@ -1,6 +1,6 @@
 //! A model file as data: what OBJ and glTF come to, before it is placed in a scene.
 
-use crate::{Error, extension, obj};
+use crate::{Error, extension, gltf_file, obj};
 use glam::{DAffine3, Vec2, Vec3};
 use std::path::Path;
 use umbrage_core::{Camera, Instance, Light, Material, Mesh, Scene, Texture};
@@ -56,6 +56,7 @@ impl Model {
     pub fn read(path: &Path) -> Result<Self, Error> {
         let model = match extension(path).as_str() {
             "obj" => obj::read(path)?,
+            "gltf" | "glb" => gltf_file::read(path)?,
             other => {
                 return Err(Error::new(path, format!("`.{other}` is not a kind of file that can be opened"))
                     .remedy("use .toml (a scene file), .obj, .gltf or .glb"));

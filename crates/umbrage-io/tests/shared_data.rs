@@ -107,3 +107,26 @@ fn every_stored_reference_opens_and_fits_its_scene() {
     assert!(message("buny", 0).ends_with("did you mean `bunny`?"));
     assert!(message("bunny", 7).ends_with("it has lights [0, 1]"));
 }
+
+#[test]
+fn gltf_files_open() {
+    let Some(dir) = shared("gltf_files_open") else { return };
+    for name in ["CornellBox.glb", "Cubes.glb", "Fox.glb", "FlightHelmet/FlightHelmet.gltf"] {
+        let start = Instant::now();
+        let opened = umbrage_io::open(&dir.join("data/gltf").join(name)).unwrap_or_else(|e| panic!("{e}"));
+        let scene = &opened.scene;
+        println!(
+            "{name}: {:.1} ms, {} triangles, {} instances of {} meshes, {} materials, {} textures, bounds {:?}, {:?}, {:?}, {:?}",
+            start.elapsed().as_secs_f64() * 1e3,
+            scene.triangle_count(),
+            scene.instances.len(),
+            scene.meshes.len(),
+            scene.materials.len(),
+            scene.textures.len(),
+            scene.bounds(),
+            scene.camera,
+            scene.lights,
+            opened.notes
+        );
+    }
+}

@@ -1,0 +1,91 @@
+//! Mesh primitives.
+
+use super::File;
+use super::accessor::Accessors;
+use crate::Error;
+use crate::model::{is_usable, is_usable_uv};
+use glam::{Vec2, Vec3};
+use gltf::Semantic;
+use gltf::mesh::Mode;
+use umbrage_core::Mesh;
+
+/// Reads a primitive; `None`, and a note, where it has no triangles.
+pub(super) fn read(
+    file: &mut File<'_>,
+    accessors: &Accessors<'_>,
+    mesh: &gltf::Mesh<'_>,
+    primitive: &gltf::Primitive<'_>,
+    uv_set: u32,
+) -> Result<Option<Mesh>, Error> {
+    let part = format!("mesh {}, primitive {}", mesh.index(), primitive.index());
+    if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
+        file.note(format!("{part} holds {:?}, not triangles, and was left out", primitive.mode()));
+        return Ok(None);
+    }
+    let Some(positions) = primitive.get(&Semantic::Positions) else {
+        file.note(format!("{part} has no positions and was left out"));
+        return Ok(None);
+    };
+    if primitive.morph_targets().next().is_some() {
+        file.note("morph targets are not applied");
+    }
+    let positions: Vec<Vec3> = accessors.floats::<3>(&positions)?.into_iter().map(Vec3::from).collect();
+    if let Some(vertex) = positions.iter().position(|p| !is_usable(*p)) {
+        let what = format!("vertex {vertex} is at {}, which is not finite or too far away", positions[vertex]);
+        return Err(file.error(part, what).remedy("mend it, or export the file again"));
+    }
+    let corners = match primitive.indices() {
+        Some(indices) => accessors.integers::<1>(&indices)?.into_iter().map(|[i]| i).collect(),
+        None => (0..positions.len() as u32).collect::<Vec<u32>>(),
+    };
+    if let Some(index) = corners.iter().find(|&&i| i as usize >= positions.len()) {
+        let what = format!("index {index} is out of range: there are {} vertices", positions.len());
+        return Err(file.error(part, what).remedy("the file may be damaged: export it again"));
+    }
+    if corners.is_empty() {
+        return Ok(None);
+    }
+    let attribute = |semantic: &Semantic| primitive.get(semantic);
+    let normals = attribute(&Semantic::Normals).map(|a| accessors.floats::<3>(&a)).transpose()?.unwrap_or_default();
+    let uvs =
+        attribute(&Semantic::TexCoords(uv_set)).map(|a| accessors.floats::<2>(&a)).transpose()?.unwrap_or_default();
+    for (what, count) in [("normals", normals.len()), ("texture coordinates", uvs.len())] {
+        if count != 0 && count != positions.len() {
+            return Err(file.error(part, format!("has {count} {what} for {} vertices", positions.len())));
+        }
+    }
+    let uvs: Vec<Vec2> = uvs.into_iter().map(Vec2::from).collect();
+    if let Some(vertex) = uvs.iter().position(|uv| !is_usable_uv(*uv)) {
+        let what = format!("the texture coordinate of vertex {vertex} is {}, not finite or too large", uvs[vertex]);
+        return Err(file.error(part, what));
+    }
+    let mut mesh = Mesh {
+        name: mesh.name().map_or(part.clone(), |name| format!("{name} ({part})")),
+        indices: triangles(file, &part, primitive.mode(), &corners)?,
+        normals: normals.into_iter().map(|n| Vec3::from(n).try_normalize().unwrap_or(Vec3::Y)).collect(),
+        positions,
+        uvs,
+    };
+    mesh.generate_normals_if_absent();
+    Ok(Some(mesh))
+}
+
+/// Corners of separate triangles, after the specification's section 3.7.2.1.
+fn triangles(file: &File<'_>, part: &str, mode: Mode, corners: &[u32]) -> Result<Vec<u32>, Error> {
+    Ok(match mode {
+        Mode::TriangleStrip => corners
+            .windows(3)
+            .enumerate()
+            .flat_map(|(i, c)| if i % 2 == 0 { [c[0], c[1], c[2]] } else { [c[0], c[2], c[1]] })
+            .collect(),
+        Mode::TriangleFan => {
+            let [first, rest @ ..] = corners else { return Ok(Vec::new()) };
+            rest.windows(2).flat_map(|c| [c[0], c[1], *first]).collect()
+        }
+        _ if corners.len().is_multiple_of(3) => corners.to_vec(),
+        _ => {
+            let what = format!("{} corners do not make whole triangles", corners.len());
+            return Err(file.error(part, what).remedy("the file may be cut off: export it again"));
+        }
+    })
+}
