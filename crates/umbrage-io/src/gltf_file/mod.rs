@@ -119,6 +119,7 @@ fn parse(file: &mut File<'_>, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>
             .remedy("export it without this extension"));
     }
     root.extensions_required.clear();
+    make_safe_to_validate(file, &mut root)?;
     let document = Document::from_json(root).map_err(|e| match e {
         gltf::Error::Validation(errors) => match errors.first() {
             Some((path, what)) => file.error(path, format!("is not valid glTF: {what}")),
@@ -132,4 +133,21 @@ fn parse(file: &mut File<'_>, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>
         }
     }
     Ok((document, gltf.blob))
+}
+
+/// The `gltf` crate refuses positions without bounds, which are not needed here, and panics on those out of range.
+fn make_safe_to_validate(file: &File<'_>, root: &mut gltf::json::Root) -> Result<(), Error> {
+    let count = root.accessors.len();
+    for (index, mesh) in root.meshes.iter().enumerate() {
+        let mut accessors = mesh.primitives.iter().flat_map(|p| p.attributes.values());
+        if let Some(accessor) = accessors.find(|accessor| accessor.value() >= count) {
+            let what = format!("accessor {} is out of range: there are {count}", accessor.value());
+            return Err(file.error(format!("mesh {index}"), what));
+        }
+    }
+    for accessor in &mut root.accessors {
+        let bounds = Some(gltf::json::Value::from(vec![0.0; 3]));
+        (accessor.min, accessor.max) = (bounds.clone(), bounds);
+    }
+    Ok(())
 }
