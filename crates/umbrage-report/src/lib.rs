@@ -1,1 +1,49 @@
-//! Runs scenes, techniques and lights against the ground truth; records, tables, JSON, CSV and HTML.
+//! Runs scenes × techniques × lights against the ground truth and records what came out.
+//!
+//! [`Compare`] gives errors, times, memory and pictures of every technique as a [`Report`], written as `report.json`
+//! and as one self-contained page; [`Bench`] gives times alone, set against the floor of the same run. Both walk the
+//! registry of `umbrage`: a new technique needs no line here.
+
+mod bench;
+mod bench_table;
+mod cell;
+mod choice;
+mod column;
+mod compare;
+mod error;
+mod given;
+mod html;
+mod made;
+mod measure;
+mod output;
+mod pictures;
+mod progress;
+pub mod record;
+mod round;
+mod shot;
+mod source;
+mod spread;
+mod table;
+mod truth;
+
+pub use bench::{Bench, BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene};
+pub use choice::{Choice, LIGHT_SAMPLES, RAY_TRACED, RAY_TRACED_PARAMS, RAY_TRACED_SUMMARY};
+pub use column::{COLUMNS, Column};
+pub use compare::{Compare, Outcome};
+pub use error::Error;
+pub use html::page;
+pub use made::{Adapter, Machine, Made};
+pub use output::{Folder, check_file};
+pub use pictures::Pictures;
+pub use progress::{Progress, Silent};
+pub use record::Report;
+pub use shot::{Aov, Method, Picture, Shot};
+pub use source::Source;
+pub use spread::Spread;
+pub use table::tables;
+pub use truth::{Tracing, Truth};
+
+/// Indented JSON with a line end. Plain data with text keys always has a JSON form.
+fn json(data: &impl serde::Serialize) -> String {
+    serde_json::to_string_pretty(data).unwrap_or_default() + "\n"
+}

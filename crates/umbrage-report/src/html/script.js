@@ -110,7 +110,7 @@ function card(scene, light, reference, result) {
   if (result.status !== "ok") {
     return el("article", { class: `card off ${result.status}` }, el("div", { class: "text" }, el("h4", {}, result.technique), set, el("p", {}, result.reason)));
   }
-  const summary = COLUMNS.filter((c) => c.card).map((c) => [c.name, number(c.value(result), c)]);
+  const summary = COLUMNS.filter((c) => c.brief).map((c) => [c.name, number(c.value(result), c)]);
   const entry = { name: result.technique, where: `${scene.name}, ${lightName(light)}`, pictures: result.pictures, reference,
     caption: [label(result), ...summary.map(([k, v]) => `${k} ${v}`)].filter(Boolean).join("   ·   ") };
   shown.push(entry);

@@ -1,0 +1,108 @@
+//! Arguments that several subcommands take, and how they are read.
+
+use anyhow::{Result, bail};
+use clap::Args;
+use umbrage::Gpu;
+use umbrage_core::Scene;
+use umbrage_report::Source;
+
+/// Which adapter to use.
+#[derive(Args)]
+pub struct Adapter {
+    /// Graphics adapter: a part of its name, `software`, or its number in `umbrage list`
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+}
+
+impl Adapter {
+    /// The device to work with.
+    pub fn gpu(&self) -> Result<Gpu> {
+        Ok(Gpu::request(self.adapter.as_deref())?)
+    }
+}
+
+/// Width and height in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Size {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+}
+
+/// Reads `WxH`. Whether the adapter allows it is its own affair, except that nobody allows 0.
+pub fn size(text: &str) -> Result<Size, String> {
+    let number = |t: &str| t.trim().parse::<u32>().ok();
+    let (width, height) = text
+        .split_once(['x', 'X', '×'])
+        .and_then(|(w, h)| Some((number(w)?, number(h)?)))
+        .ok_or("write WIDTHxHEIGHT, such as 640x480")?;
+    if width == 0 || height == 0 {
+        return Err("a picture has at least 1 pixel and at most what the adapter allows, 16384 on most".into());
+    }
+    Ok(Size { width, height })
+}
+
+/// Reads `name=value`.
+pub fn pair(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as size=1024")?;
+    Ok((name.trim().into(), value.trim().into()))
+}
+
+/// Reads `technique.name=value`.
+pub fn triple(text: &str) -> Result<(String, String, String), String> {
+    const FORM: &str = "write TECHNIQUE.NAME=VALUE, such as shadow-map.size=1024";
+    let (name, value) = pair(text).map_err(|_| FORM)?;
+    let (technique, name) = name.split_once('.').ok_or(FORM)?;
+    Ok((technique.into(), name.into(), value))
+}
+
+/// The lights to work on: the one asked for, or all of the scene.
+pub fn lights(scene: &Scene, asked: Option<usize>) -> Result<Vec<usize>> {
+    let count = scene.lights.len();
+    match asked {
+        None => Ok((0..count).collect()),
+        Some(light) if light < count => Ok(vec![light]),
+        Some(light) if count == 1 => bail!("{}: there is no light {light}; its one light is 0", scene.name),
+        Some(light) => bail!("{}: there is no light {light}; its lights are 0 to {}", scene.name, count - 1),
+    }
+}
+
+/// Opens scenes, each with the lights to work on; what the loader has to say goes to the standard error.
+pub fn scenes(asked: &[String], light: Option<usize>) -> Result<Vec<(Source, Vec<usize>)>> {
+    let mut scenes = Vec::new();
+    for name in asked {
+        let source = Source::open(name)?;
+        let lights = lights(&source.scene, light)?;
+        source.notes.iter().for_each(|note| eprintln!("note: {name}: {note}"));
+        scenes.push((source, lights));
+    }
+    Ok(scenes)
+}
+
+/// The command line, for records; the program goes by its name alone.
+pub fn command_line() -> Vec<String> {
+    std::iter::once("umbrage".into()).chain(std::env::args().skip(1)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_read_or_refused() {
+        assert_eq!(size("640x480"), Ok(Size { width: 640, height: 480 }));
+        for wrong in ["640", "x", "-1x2", "1.5x2", "", "99999999999x1"] {
+            assert!(size(wrong).unwrap_err().contains("WIDTHxHEIGHT"), "{wrong}");
+        }
+        assert!(size("0x480").unwrap_err().contains("16384"));
+    }
+
+    #[test]
+    fn settings_are_read_or_refused() {
+        assert_eq!(pair("size = 512"), Ok(("size".into(), "512".into())));
+        assert!(pair("size").is_err());
+        assert_eq!(triple("pcf.kernel=7"), Ok(("pcf".into(), "kernel".into(), "7".into())));
+        assert!(triple("kernel=7").is_err() && triple("pcf.kernel").is_err());
+    }
+}

@@ -1,0 +1,73 @@
+//! `umbrage bench`: times.
+
+use crate::{
+    args::{self, Adapter, Size},
+    bars::Bars,
+};
+use anyhow::Result;
+use clap::Args;
+use std::io::{Write, stdout};
+use umbrage_report::{Bench as Plan, Choice};
+
+/// Measures techniques: GPU time of each pass, frame, draws, triangles, memory, against the floor of the same run
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  umbrage bench atrium --techniques all
+  umbrage bench city primitives --techniques shadow-map:size=1024,pcf:kernel=5 --frames 200 --json > bench.json
+  umbrage bench bunny.scene.toml --light 0 --csv > bench.csv
+
+Techniques take turns frame by frame. `floor` is one full-screen pass that reads depth and writes visibility;
+`bare-minimum` is a depth-only pass into a map of the same size and a full-screen pass with one look-up.")]
+pub struct Bench {
+    /// Built-in scenes or files
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<String>,
+    /// Techniques with settings, `id` or `id:name=value`, separated by commas; `all` is every one
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "all")]
+    techniques: Vec<String>,
+    /// Parameter of a technique wherever it is in the list
+    #[arg(long, value_name = "TECHNIQUE.NAME=VALUE", value_parser = args::triple)]
+    set: Vec<(String, String, String)>,
+    /// Only this light of each scene, from 0 [default: all]
+    #[arg(long, value_name = "N")]
+    light: Option<usize>,
+    /// Frames of each technique
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    frames: u32,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = args::size)]
+    size: Size,
+    /// Print JSON
+    #[arg(long, conflicts_with = "csv")]
+    json: bool,
+    /// Print CSV, one line a technique
+    #[arg(long)]
+    csv: bool,
+    #[command(flatten)]
+    adapter: Adapter,
+}
+
+impl Bench {
+    /// Measures and prints.
+    pub fn run(self) -> Result<()> {
+        let choices = Choice::list(&self.techniques, &self.set)?;
+        let scenes = args::scenes(&self.scenes, self.light)?;
+        let gpu = self.adapter.gpu()?;
+        let plan = Plan {
+            scenes,
+            choices,
+            size: (self.size.width, self.size.height),
+            frames: self.frames,
+            command: args::command_line(),
+        };
+        let report = plan.run(&gpu, &Bars::default())?;
+        let text = match (self.json, self.csv) {
+            (true, _) => report.json(),
+            (_, true) => report.csv(),
+            _ => report.tables(),
+        };
+        stdout().write_all(text.as_bytes())?;
+        Ok(())
+    }
+}

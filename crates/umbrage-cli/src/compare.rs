@@ -1,0 +1,86 @@
+//! `umbrage compare`: techniques against the truth.
+
+use crate::{
+    args::{self, Adapter, Size},
+    bars::Bars,
+};
+use anyhow::Result;
+use clap::Args;
+use std::{
+    io::{Write, stdout},
+    path::PathBuf,
+};
+use umbrage_report::{Choice, Compare as Plan, Folder, tables};
+
+/// Scores techniques against ray-traced ground truth: a table, report.json and a page with pictures
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  umbrage compare primitives --techniques all -o out
+  umbrage compare atrium city --techniques shadow-map,pcf:kernel=7 --samples 1024 -o out
+  umbrage compare contact --techniques shadow-map,shadow-map:light-samples=64 --set shadow-map.size=1024 -o out
+  umbrage compare boxes.scene.toml --techniques all --reference references -o out --json
+
+DIR gets report.json, index.html (open it in a browser) and pictures/. --reference takes a folder with
+NAME.lightK.visibility.png, NAME.lightK.mask.png and NAME.geometry.npz, NAME being that of the scene file.")]
+pub struct Compare {
+    /// Built-in scenes or files
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<String>,
+    /// Techniques with settings, `id` or `id:name=value`, separated by commas; `all` is every one
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "all")]
+    techniques: Vec<String>,
+    /// Parameter of a technique wherever it is in the list
+    #[arg(long, value_name = "TECHNIQUE.NAME=VALUE", value_parser = args::triple)]
+    set: Vec<(String, String, String)>,
+    /// Only this light of each scene, from 0 [default: all]
+    #[arg(long, value_name = "N")]
+    light: Option<usize>,
+    /// Rays for each pixel of the reference
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    samples: u32,
+    /// Stored references to score against instead of tracing them; they bring their size
+    #[arg(long, value_name = "DIR")]
+    reference: Option<PathBuf>,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = args::size)]
+    size: Size,
+    /// Frames that times are medians of
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    frames: u32,
+    /// Folder to write to
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Print report.json instead of the table
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    adapter: Adapter,
+}
+
+impl Compare {
+    /// Compares, prints and writes.
+    pub fn run(self) -> Result<()> {
+        let choices = Choice::list(&self.techniques, &self.set)?;
+        let scenes = args::scenes(&self.scenes, self.light)?;
+        let gpu = self.adapter.gpu()?;
+        let folder = Folder::create(&self.output)?;
+        let plan = Plan {
+            scenes,
+            choices,
+            size: (self.size.width, self.size.height),
+            samples: self.samples,
+            reference: self.reference,
+            frames: self.frames,
+            command: args::command_line(),
+        };
+        let outcome = plan.run(&gpu, &Bars::default())?;
+        outcome.write(&folder)?;
+        if self.json {
+            stdout().write_all(outcome.json().as_bytes())?;
+        } else {
+            writeln!(stdout(), "{}\nwrote {}", tables(&outcome.report), folder.path("index.html").display())?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,95 @@
+//! `umbrage render`: one picture.
+
+use crate::{
+    args::{self, Adapter, Size},
+    bars::Bars,
+};
+use anyhow::{Result, bail};
+use clap::Args;
+use std::path::PathBuf;
+use umbrage_report::{
+    Aov, Choice, LIGHT_SAMPLES, Method, Picture, RAY_TRACED, RAY_TRACED_PARAMS, Shot, Source, check_file,
+};
+
+/// Renders one picture of a scene with one technique
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  umbrage render atrium -o atrium.png
+  umbrage render bunny.scene.toml --technique shadow-map --set size=1024 --light 0 --aov visibility -o v.exr
+  umbrage render contact --technique shadow-map --light-samples 256 -o soft.png
+  umbrage render contact --technique ray-traced --samples 256 --light 0 --aov visibility -o truth.png
+
+Pictures: `color` is sRGB PNG. `visibility` is linear: 16-bit grey PNG, or float EXR (channel V); it needs
+--light where a scene has several. `scored` is 255 where the comparison looks. `depth` is metres along the view in
+EXR (channel Z). `normal` is world space in EXR, (n + 1) / 2 in PNG.")]
+pub struct Render {
+    /// Built-in scene or file
+    scene: String,
+    /// Technique, as in `umbrage list`; `ray-traced` is the reference
+    #[arg(long, value_name = "ID", default_value = "shadow-map")]
+    technique: String,
+    /// Parameter of the technique
+    #[arg(long, value_name = "NAME=VALUE", value_parser = args::pair)]
+    set: Vec<(String, String)>,
+    /// Only this light, from 0 [default: all]
+    #[arg(long, value_name = "N")]
+    light: Option<usize>,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = args::size)]
+    size: Size,
+    /// Rays for each pixel of `ray-traced`; 1 is the perfect hard shadow [default: 1024]
+    #[arg(long, value_name = "N")]
+    samples: Option<u32>,
+    /// Average a hard technique over so many points of the light
+    #[arg(long, value_name = "N")]
+    light_samples: Option<u32>,
+    /// color, visibility, scored, depth, normal, or a view into the technique
+    #[arg(long, value_name = "NAME", default_value = "color")]
+    aov: String,
+    /// File to write, .png or .exr
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    #[command(flatten)]
+    adapter: Adapter,
+}
+
+impl Render {
+    /// Takes the picture and writes it.
+    pub fn run(self) -> Result<()> {
+        let aov = Aov::from(self.aov.as_str());
+        Picture::check_name(&aov, &self.output)?;
+        check_file(&self.output)?;
+        let method = self.method()?;
+        let source = Source::open(&self.scene)?;
+        let lights = args::lights(&source.scene, self.light)?;
+        let of_one_light = matches!(aov, Aov::Visibility | Aov::Scored | Aov::Inside(_));
+        if of_one_light && lights.len() > 1 {
+            let last = lights.len() - 1;
+            bail!("{}: `{}` is of one light; say which with --light, 0 to {last}", source.scene.name, self.aov);
+        }
+        source.notes.iter().for_each(|note| eprintln!("note: {note}"));
+        let gpu = self.adapter.gpu()?;
+        let shot = Shot { source, lights, method, size: (self.size.width, self.size.height), aov };
+        let picture = shot.take(&gpu, &Bars::default())?;
+        picture.save(&self.output)?;
+        Ok(())
+    }
+
+    fn method(&self) -> Result<Method> {
+        let mut set = self.set.clone();
+        if self.technique == RAY_TRACED {
+            if self.light_samples.is_some() {
+                bail!("--light-samples is for hard techniques; `{RAY_TRACED}` takes --samples");
+            }
+            set.extend(self.samples.map(|n| ("samples".into(), n.to_string())));
+            let settings = umbrage::Settings::parse(RAY_TRACED, RAY_TRACED_PARAMS, &set)?;
+            return Ok(Method::RayTraced { samples: u32::try_from(settings.int("samples"))? });
+        }
+        if self.samples.is_some() {
+            bail!("--samples is for `{RAY_TRACED}`; hard techniques take --light-samples");
+        }
+        set.extend(self.light_samples.map(|n| (LIGHT_SAMPLES.into(), n.to_string())));
+        Ok(Method::Technique(Choice::new(&self.technique, &set)?))
+    }
+}

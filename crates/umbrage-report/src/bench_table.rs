@@ -1,0 +1,191 @@
+//! Benchmark results as JSON, as CSV and on a terminal.
+
+use crate::{
+    bench::{BenchReport, BenchResult},
+    record::Status,
+    round::rounded,
+    spread::Spread,
+    table::plain,
+};
+use comfy_table::{Cell, Table};
+
+const CSV_HEAD: &str = "scene,light,kind,technique,settings,status,reason,frame_ms,frame_ms_min,frame_ms_max,prepare_ms,\
+     prepare_ms_min,prepare_ms_max,gpu_ms,gpu_ms_min,gpu_ms_max,passes,draws,triangles,bytes,vs_floor,vs_bare_minimum";
+
+impl BenchReport {
+    /// Indented JSON.
+    pub fn json(&self) -> String {
+        crate::json(self)
+    }
+
+    /// One line a technique and light, with a heading (RFC 4180).
+    pub fn csv(&self) -> String {
+        let mut text = format!("{CSV_HEAD}\n");
+        for scene in &self.scenes {
+            for light in &scene.lights {
+                for result in &light.results {
+                    let place = [scene.source.clone(), light.light.to_string(), light.kind.to_string()];
+                    let fields: Vec<String> = place.into_iter().chain(csv_fields(result)).map(|f| quoted(&f)).collect();
+                    text += &fields.join(",");
+                    text.push('\n');
+                }
+            }
+        }
+        text
+    }
+
+    /// A table for each light of each scene.
+    pub fn tables(&self) -> String {
+        let mut text = String::new();
+        for scene in &self.scenes {
+            for light in &scene.lights {
+                text += &format!(
+                    "\n{}, light {} ({}), {}×{}, {} triangles; medians of {} frames\n",
+                    scene.name, light.light, light.kind, self.width, self.height, scene.triangles, self.frames
+                );
+                text += &table(&light.results).to_string();
+                text += "\n";
+            }
+        }
+        text + "\n× floor, × bare: GPU and preparation time over that of one full-screen pass, and over that of a plain map \
+                with a one-tap look-up.\n"
+    }
+}
+
+fn label(result: &BenchResult) -> String {
+    let set = result.settings.iter().map(|(k, v)| format!(" {k}={v}"));
+    let samples = result.light_samples.map(|n| format!(" light-samples={n}"));
+    std::iter::once(result.technique.clone()).chain(set).chain(samples).collect()
+}
+
+fn csv_fields(result: &BenchResult) -> Vec<String> {
+    let status = match result.status {
+        Status::Ok => "ok",
+        Status::Unsupported => "unsupported",
+        Status::Failed => "failed",
+    };
+    let settings = label(result).split(' ').skip(1).collect::<Vec<_>>().join(" ");
+    let mut fields = vec![result.technique.clone(), settings, status.into(), result.reason.clone().unwrap_or_default()];
+    let spread = |s: Option<Spread>| s.map_or([const { String::new() }; 3], |s| [s.median, s.min, s.max].map(number));
+    let cost = result.cost.as_ref();
+    fields.extend(spread(cost.map(|c| c.frame_ms)));
+    fields.extend(spread(cost.map(|c| c.prepare_ms)));
+    fields.extend(spread(cost.and_then(|c| c.gpu_ms)));
+    let passes = cost.map(|c| c.passes.iter().map(|p| format!("{}/{}={}", p.owner, p.pass, number(p.time_ms.median))));
+    fields.push(passes.map_or(String::new(), |p| p.collect::<Vec<_>>().join(";")));
+    fields.extend(
+        cost.map_or([const { String::new() }; 3], |c| {
+            [c.draws.to_string(), c.triangles.to_string(), c.bytes.to_string()]
+        }),
+    );
+    fields.extend([result.vs_floor, result.vs_bare_minimum].map(|v| v.map(number).unwrap_or_default()));
+    fields
+}
+
+fn number(value: f64) -> String {
+    if value.is_finite() { rounded(value).to_string() } else { String::new() }
+}
+
+fn quoted(field: &str) -> String {
+    if field.contains([',', '"', '\n', '\r']) { format!("\"{}\"", field.replace('"', "\"\"")) } else { field.into() }
+}
+
+fn table(results: &[BenchResult]) -> Table {
+    let heading = [
+        "technique",
+        "frame ms",
+        "prepare ms",
+        "gpu ms",
+        "× floor",
+        "× bare",
+        "passes, ms",
+        "draws",
+        "triangles",
+        "MiB",
+    ];
+    let mut table = plain(heading.into_iter());
+    for result in results {
+        let mut row = vec![Cell::new(label(result))];
+        match &result.cost {
+            Some(cost) => {
+                let ms = |v: f64| format!("{v:.2}");
+                let maybe = |v: Option<f64>| v.map_or("–".into(), ms);
+                let passes = cost.own_passes().map(|p| format!("{} {:.2}", p.pass, p.time_ms.median));
+                let cells = [
+                    ms(cost.frame_ms.median),
+                    ms(cost.prepare_ms.median),
+                    maybe(cost.gpu_ms.map(|s| s.median)),
+                    maybe(result.vs_floor),
+                    maybe(result.vs_bare_minimum),
+                    passes.collect::<Vec<_>>().join(", "),
+                    cost.draws.to_string(),
+                    cost.triangles.to_string(),
+                    ms(cost.bytes as f64 / 1_048_576.0),
+                ];
+                row.extend(cells.map(Cell::new));
+            }
+            None => row.push(Cell::new(result.reason.as_deref().unwrap_or_default())),
+        }
+        table.add_row(row);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        bench::{BenchCost, BenchLight, BenchPass, BenchScene},
+        made::Made,
+        record::{SCHEMA, fixture},
+    };
+    use std::collections::BTreeMap;
+
+    fn report() -> BenchReport {
+        let spread = Spread { median: 2.0, min: 1.0, max: 1.0 / 3.0 };
+        let cost = BenchCost {
+            passes: vec![BenchPass { owner: "light 0".into(), pass: "map".into(), time_ms: spread }],
+            gpu_ms: Some(spread),
+            prepare_ms: spread,
+            frame_ms: spread,
+            draws: 3,
+            triangles: 500,
+            bytes: 1 << 20,
+        };
+        let result = |technique: &str, cost: Option<BenchCost>, reason: Option<&str>| BenchResult {
+            technique: technique.into(),
+            settings: BTreeMap::from([("size".into(), "512".into())]),
+            light_samples: None,
+            status: if cost.is_some() { Status::Ok } else { Status::Failed },
+            reason: reason.map(String::from),
+            cost,
+            vs_floor: None,
+            vs_bare_minimum: Some(1.25),
+        };
+        let made: Made = fixture().made;
+        let results = vec![result("shadow-map", Some(cost), None), result("pcf", None, Some("lost, \"gone\""))];
+        let light = BenchLight { light: 0, kind: "point", results };
+        let scene =
+            BenchScene { name: "a".into(), source: "a,b.obj".into(), triangles: 9, instances: 1, lights: vec![light] };
+        BenchReport { schema: SCHEMA, made, width: 8, height: 6, frames: 5, scenes: vec![scene] }
+    }
+
+    #[test]
+    fn csv_rows_have_as_many_fields_as_the_heading_and_quote_what_needs_it() {
+        let csv = report().csv();
+        let lines: Vec<&str> = csv.lines().collect();
+        assert_eq!(lines.len(), 3);
+        // The first field has a comma of its own.
+        assert_eq!(lines[1].split(',').count(), lines[0].split(',').count() + 1, "{csv}");
+        assert!(lines[1].starts_with("\"a,b.obj\",0,point,shadow-map,size=512,ok,,2,1,0.333333,"), "{csv}");
+        assert!(lines[2].contains("\"lost, \"\"gone\"\"\""), "{csv}");
+    }
+
+    #[test]
+    fn the_table_names_passes_and_failures() {
+        let text = report().tables();
+        for part in ["shadow-map size=512", "map 2.00", "1.25", "lost, \"gone\""] {
+            assert!(text.contains(part), "{part} is missing in\n{text}");
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! One technique on one light: rendered, scored, timed.
+
+use crate::{
+    choice::Choice,
+    error::Error,
+    given::Given,
+    measure::{Frames, is_of_technique},
+    pictures::{Pictures, grey, opaque},
+    record::{CostRecord, PassRecord, ReferenceRecord, ResultRecord, Status},
+    source::Source,
+    truth::{Tracing, Truth},
+};
+use std::{collections::BTreeMap, time::Duration};
+use umbrage::{Gpu, LightPass, Renderer, Technique};
+use umbrage_core::Image;
+use umbrage_metrics::{Comparison, Scores, heat, score};
+
+/// What all techniques on one light share.
+pub(crate) struct Cell<'a> {
+    pub gpu: &'a Gpu,
+    pub source: &'a Source,
+    pub light: usize,
+    pub truth: &'a Truth,
+    pub tracing: &'a Tracing,
+    pub frames: u32,
+}
+
+/// Time for the frames of one technique; one that needs longer is measured over fewer.
+const TIME_LIMIT: Duration = Duration::from_secs(4);
+
+impl Cell<'_> {
+    /// Runs a technique; what it can't do and what goes wrong is in the record.
+    pub(crate) fn run(&self, choice: &Choice, place: &str, pictures: &mut Pictures) -> ResultRecord {
+        let mut record = ResultRecord {
+            technique: choice.info.id.into(),
+            title: choice.info.title.into(),
+            settings: choice.changed().clone(),
+            light_samples: choice.light_samples,
+            status: Status::Ok,
+            reason: None,
+            scores: None,
+            cost: None,
+            pictures: BTreeMap::new(),
+        };
+        if let Err(error) = self.fill(&mut record, choice, place, pictures) {
+            let (status, reason) = match error {
+                Error::Gpu(umbrage::Error::Unsupported { what, .. }) => {
+                    (Status::Unsupported, format!("not for {what}"))
+                }
+                other => (Status::Failed, other.to_string()),
+            };
+            record.scores = None;
+            record.cost = None;
+            record.pictures.clear();
+            (record.status, record.reason) = (status, Some(reason));
+        }
+        record
+    }
+
+    fn fill(
+        &self,
+        record: &mut ResultRecord,
+        choice: &Choice,
+        place: &str,
+        pictures: &mut Pictures,
+    ) -> Result<(), Error> {
+        choice.supports(self.source.scene.lights[self.light].shape.kind())?;
+        let mut renderer = self.renderer(choice.make(self.gpu)?)?;
+        let frames = Frames::measure(&mut renderer, &self.source.scene.camera, self.frames, TIME_LIMIT)?;
+        let visibility = renderer.visibility(0)?;
+        let scores = self.score(&visibility, None)?;
+        record.scores = Some(scores.into());
+        record.cost = Some(cost(&frames, &renderer));
+        let error = heat(&visibility, &self.truth.visibility, &self.truth.mask);
+        let name = format!("{place}-{}", choice.label());
+        record.pictures = BTreeMap::from([
+            ("color", pictures.add(&format!("{name}-color"), &opaque(&renderer.color()?))?),
+            ("visibility", pictures.add(&format!("{name}-visibility"), &grey(&visibility))?),
+            ("error", pictures.add(&format!("{name}-error"), &error)?),
+        ]);
+        Ok(())
+    }
+
+    /// The record of the truth itself, with the scene shaded under it.
+    pub(crate) fn reference(&self, place: &str, pictures: &mut Pictures) -> Result<ReferenceRecord, Error> {
+        let Truth { visibility, mask, hard, source, samples, seconds } = self.truth;
+        let mut renderer = self.renderer(Box::new(Given::new(self.gpu, visibility)?))?;
+        renderer.frame(&self.source.scene.camera)?;
+        let shown = BTreeMap::from([
+            ("color", pictures.add(&format!("{place}-reference-color"), &opaque(&renderer.color()?))?),
+            ("visibility", pictures.add(&format!("{place}-reference-visibility"), &grey(visibility))?),
+        ]);
+        let hard_mae = hard.as_ref().map(|hard| self.score(hard, None)).transpose()?.map(|s| s.mae);
+        Ok(ReferenceRecord {
+            source: source.clone(),
+            samples: *samples,
+            seconds: *seconds,
+            scored_pixels: mask.data.iter().filter(|m| **m).count(),
+            hard_mae,
+            pictures: shown,
+        })
+    }
+
+    /// Errors of a visibility picture of this light.
+    pub(crate) fn score(&self, produced: &Image<f32>, reach: Option<&Image<f32>>) -> Result<Scores, Error> {
+        let Truth { visibility, mask, hard, .. } = self.truth;
+        Ok(score(&Comparison { produced, reference: visibility, mask, hard: hard.as_ref(), reach })?)
+    }
+
+    fn renderer(&self, technique: Box<dyn Technique>) -> Result<Renderer, Error> {
+        let (width, height) = self.tracing.geometry.depth.size();
+        let pass = LightPass { light: self.light, technique };
+        Ok(Renderer::new(self.gpu, &self.source.scene, width, height, vec![pass])?)
+    }
+}
+
+fn cost(frames: &Frames, renderer: &Renderer) -> CostRecord {
+    let stats = renderer.stats(0);
+    let passes = frames.passes().into_iter().filter(|(owner, ..)| is_of_technique(owner));
+    CostRecord {
+        frames: frames.count(),
+        passes: passes.map(|(_, pass, spread)| PassRecord { pass, time_ms: spread.median }).collect(),
+        gpu_ms: frames.technique().map(|t| t.median),
+        prepare_ms: frames.prepare().median,
+        frame_ms: frames.frame().median,
+        draws: stats.draws,
+        triangles: stats.triangles,
+        bytes: stats.bytes,
+    }
+}

@@ -1,0 +1,181 @@
+//! Techniques as users name them: `id`, or `id:name=value:name=value`.
+
+use crate::error::Error;
+use std::collections::BTreeMap;
+use umbrage::{Gpu, Param, ParamKind, Settings, Technique, TechniqueInfo};
+use umbrage_core::LightKind;
+
+/// Name of the CPU ray tracer where a technique may be named.
+pub const RAY_TRACED: &str = "ray-traced";
+
+/// What it is, in one sentence.
+pub const RAY_TRACED_SUMMARY: &str =
+    "The truth, by the CPU: rays to points spread evenly over the light. Every comparison is held against it.";
+
+/// Its parameters.
+pub const RAY_TRACED_PARAMS: &[Param] = &[Param {
+    name: "samples",
+    help: "Rays for each pixel; 1 is the one ray to the light's centre, the perfect hard shadow.",
+    unit: "",
+    kind: ParamKind::Int { min: 1, max: 1 << 20, default: 1024 },
+}];
+
+/// The pseudo-parameter that averages a hard technique over points of the light.
+pub const LIGHT_SAMPLES: &str = "light-samples";
+
+/// A technique with checked settings.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    /// What it is.
+    pub info: &'static TechniqueInfo,
+    /// All its parameters.
+    pub settings: Settings,
+    /// Points of the light to average over by brute force.
+    pub light_samples: Option<u32>,
+    changed: BTreeMap<String, String>,
+}
+
+impl Choice {
+    /// The technique `id` with the parameters `set`, in which [`LIGHT_SAMPLES`] may stand too.
+    ///
+    /// # Errors
+    /// Names that are not known, with the nearest one, and values out of range.
+    pub fn new(id: &str, set: &[(String, String)]) -> Result<Self, Error> {
+        if id == RAY_TRACED {
+            let text = format!("`{RAY_TRACED}` is the reference of every comparison already; leave it out");
+            return Err(Error::Name(text));
+        }
+        let info = umbrage::find(id)?;
+        let (brute, set): (Vec<_>, Vec<_>) = set.iter().cloned().partition(|(name, _)| name == LIGHT_SAMPLES);
+        let light_samples = brute.last().map(|(_, value)| parse_light_samples(info, value)).transpose()?;
+        let settings = info.settings(&set)?;
+        let defaults = info.settings(&[])?;
+        let differs = settings.iter().zip(defaults.iter()).filter(|(s, d)| s != d);
+        let changed = differs.map(|((name, value), _)| (name.to_string(), value.to_string())).collect();
+        Ok(Self { info, settings, light_samples, changed })
+    }
+
+    /// Reads `id:name=value:name=value`; `set` holds what applies to the technique wherever it is named, as
+    /// `(id, name, value)`.
+    ///
+    /// # Errors
+    /// As [`Choice::new`], and for a part without `=`.
+    pub fn parse(text: &str, set: &[(String, String, String)]) -> Result<Self, Error> {
+        let mut parts = text.split(':');
+        let id = parts.next().unwrap_or_default();
+        let mut pairs: Vec<_> =
+            set.iter().filter(|(of, ..)| of == id).map(|(_, name, value)| (name.clone(), value.clone())).collect();
+        for part in parts {
+            let pair = part.split_once('=').ok_or_else(|| {
+                Error::Name(format!("`{part}` in `{text}` is no setting; write technique:name=value:name=value"))
+            })?;
+            pairs.push((pair.0.into(), pair.1.into()));
+        }
+        Self::new(id, &pairs)
+    }
+
+    /// The choices that a list such as `all` or `shadow-map,pcf:kernel=7` makes.
+    ///
+    /// # Errors
+    /// As [`Choice::parse`]; settings of `set` for a technique that is not in the list.
+    pub fn list(names: &[String], set: &[(String, String, String)]) -> Result<Vec<Self>, Error> {
+        let mut choices = Vec::new();
+        for name in names {
+            if name == "all" {
+                for info in umbrage::techniques() {
+                    choices.push(Self::parse(info.id, set)?);
+                }
+            } else {
+                choices.push(Self::parse(name, set)?);
+            }
+        }
+        for (id, name, value) in set {
+            if !choices.iter().any(|c| c.info.id == id) {
+                umbrage::find(id)?;
+                let text = format!("--set {id}.{name}={value}: `{id}` is not among the techniques asked for");
+                return Err(Error::Name(text));
+            }
+        }
+        Ok(choices)
+    }
+
+    /// The parameters that are not at their default.
+    pub fn changed(&self) -> &BTreeMap<String, String> {
+        &self.changed
+    }
+
+    /// Id and what is set, as one would write it.
+    pub fn label(&self) -> String {
+        let mut label = self.info.id.to_string();
+        self.changed.iter().for_each(|(name, value)| label += &format!(":{name}={value}"));
+        self.light_samples.iter().for_each(|n| label += &format!(":{LIGHT_SAMPLES}={n}"));
+        label
+    }
+
+    /// Whether it can do lights of this kind.
+    ///
+    /// # Errors
+    /// One that names the kind.
+    pub fn supports(&self, kind: LightKind) -> Result<(), Error> {
+        // Averaged over points of the light, a technique only needs to do points and directions.
+        let hard = if kind == LightKind::Sun { LightKind::Directional } else { LightKind::Point };
+        let asked = if self.light_samples.is_some() && kind.is_soft() { hard } else { kind };
+        Ok(self.info.supports(asked)?)
+    }
+
+    /// Makes it.
+    ///
+    /// # Errors
+    /// What the adapter can't do.
+    pub fn make(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        Ok(match self.light_samples {
+            Some(n) => umbrage::light_samples(self.info, gpu, &self.settings, n)?,
+            None => self.info.make(gpu, &self.settings)?,
+        })
+    }
+}
+
+fn parse_light_samples(info: &TechniqueInfo, value: &str) -> Result<u32, Error> {
+    if !info.hard {
+        let hard: Vec<&str> = umbrage::techniques().iter().filter(|t| t.hard).map(|t| t.id).collect();
+        let text = format!("`{}` is not a hard technique; {LIGHT_SAMPLES} is for {}", info.id, hard.join(", "));
+        return Err(Error::Name(text));
+    }
+    let number = value.parse().ok().filter(|n| *n > 0);
+    number.ok_or_else(|| Error::Name(format!("{LIGHT_SAMPLES} `{value}` is not a number over 0")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(result: Result<Choice, Error>) -> String {
+        result.map(|c| c.label()).unwrap_or_else(|e| e.to_string())
+    }
+
+    #[test]
+    fn settings_are_read_and_written_alike() {
+        assert_eq!(text(Choice::parse("shadow-map:size=512", &[])), "shadow-map:size=512");
+        let set = [("shadow-map".into(), "size".into(), "1024".into())];
+        assert_eq!(text(Choice::parse("shadow-map:light-samples=16", &set)), "shadow-map:size=1024:light-samples=16");
+        assert_eq!(text(Choice::parse("none", &set)), "none");
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        assert!(text(Choice::parse("shadowmap", &[])).contains("did you mean `shadow-map`"));
+        assert!(text(Choice::parse("shadow-map:size", &[])).contains("name=value"));
+        assert!(text(Choice::parse("shadow-map:light-samples=0", &[])).contains("over 0"));
+        assert!(text(Choice::parse("none:light-samples=4", &[])).contains("not a hard technique"));
+        assert!(text(Choice::parse(RAY_TRACED, &[])).contains("already"));
+        let unused = [("pcf".into(), "size".into(), "512".into())];
+        let list = Choice::list(&["none".into()], &unused).map(|l| l.len()).unwrap_err().to_string();
+        assert!(list.contains("not among"), "{list}");
+    }
+
+    #[test]
+    fn all_is_the_registry() {
+        let all = Choice::list(&["all".into()], &[]).unwrap();
+        assert_eq!(all.len(), umbrage::techniques().len());
+    }
+}

@@ -1,0 +1,95 @@
+//! The numbers that tables show: declared once for the terminal, the page and the CSV file.
+
+use serde::Serialize;
+use serde_json::Value;
+
+/// One number of a result.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Column {
+    /// Heading.
+    pub name: &'static str,
+    /// One line that explains it.
+    pub help: &'static str,
+    /// Where it is in a result of `report.json`.
+    pub path: [&'static str; 2],
+    /// `less` or `more` is better; null where neither is.
+    pub better: Option<&'static str>,
+    /// What one unit of the heading is in units of the data.
+    pub scale: f64,
+    /// Digits after the point.
+    pub digits: usize,
+    /// Whether it is shown on the terminal and under pictures too.
+    pub brief: bool,
+}
+
+const fn score(name: &'static str, better: &'static str, digits: usize, brief: bool, help: &'static str) -> Column {
+    Column { name, help, path: ["scores", name], better: Some(better), scale: 1.0, digits, brief }
+}
+
+const fn cost(
+    name: &'static str,
+    field: &'static str,
+    scale: f64,
+    digits: usize,
+    brief: bool,
+    help: &'static str,
+) -> Column {
+    Column { name, help, path: ["cost", field], better: Some("less"), scale, digits, brief }
+}
+
+/// All of them, errors first.
+pub const COLUMNS: [Column; 16] = [
+    score("mae", "less", 4, true, "Mean absolute error of visibility over the scored pixels, 0 to 1."),
+    score("rmse", "less", 4, false, "Root of the mean squared error: large errors weigh more."),
+    score("p99", "less", 3, false, "99 of 100 scored pixels are off by no more than this."),
+    score("ssim", "more", 4, false, "Structural similarity to the reference: 1 is the same."),
+    score(
+        "flip",
+        "less",
+        4,
+        false,
+        "ꟻLIP: the difference seen by somebody who flips between the two pictures, 0 to 1.",
+    ),
+    score("correct_pct", "more", 2, true, "Percentage of scored pixels whose visibility is off by at most 0.02."),
+    score(
+        "interior_pct",
+        "more",
+        2,
+        true,
+        "Percentage correct far from every shadow edge: acne and peter-panning show here.",
+    ),
+    score("leak", "less", 4, false, "Mean light where there should be shadow."),
+    score("false_shadow", "less", 4, false, "Mean shadow where there should be light."),
+    score(
+        "vs_hard",
+        "less",
+        3,
+        true,
+        "Error as a share of that of a perfect hard shadow: 1 is no better than hard, 0 is the truth. Soft lights only.",
+    ),
+    cost("gpu ms", "gpu_ms", 1.0, 2, true, "GPU time of all passes of the technique, median."),
+    cost("prepare ms", "prepare_ms", 1.0, 2, false, "CPU time to prepare the frame, median."),
+    cost(
+        "frame ms",
+        "frame_ms",
+        1.0,
+        2,
+        true,
+        "Whole frame from start to finished picture: G-buffer, shadow, shading, median.",
+    ),
+    cost("MiB", "bytes", 1_048_576.0, 2, true, "GPU memory that the technique holds, in mebibytes."),
+    cost("draws", "draws", 1.0, 0, false, "Draw calls of the technique in a frame."),
+    cost("triangles", "triangles", 1.0, 0, false, "Triangles that the technique sends to the GPU in a frame."),
+];
+
+impl Column {
+    /// The number of a result given as JSON; `None` where it has none.
+    pub fn value(&self, result: &Value) -> Option<f64> {
+        result[self.path[0]][self.path[1]].as_f64()
+    }
+
+    /// The number as the table shows it.
+    pub fn text(&self, result: &Value) -> String {
+        self.value(result).map_or("–".into(), |v| format!("{:.*}", self.digits, v / self.scale))
+    }
+}

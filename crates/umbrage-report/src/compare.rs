@@ -1,0 +1,172 @@
+//! The comparison: scenes × lights × techniques against the truth.
+
+use crate::{
+    cell::Cell,
+    choice::Choice,
+    error::Error,
+    html,
+    made::Made,
+    output::Folder,
+    pictures::Pictures,
+    progress::Progress,
+    record::{LightRecord, Report, SCHEMA, SceneRecord},
+    source::Source,
+    truth::Tracing,
+};
+use std::path::PathBuf;
+use umbrage::Gpu;
+use umbrage_io::stored::StoredReference;
+
+/// What to compare, and how.
+#[derive(Clone, Debug)]
+pub struct Compare {
+    /// The scenes, each with the lights to look at.
+    pub scenes: Vec<(Source, Vec<usize>)>,
+    /// The techniques.
+    pub choices: Vec<Choice>,
+    /// Pixels across and down; stored references bring their own.
+    pub size: (u32, u32),
+    /// Rays for each pixel of a soft light's reference.
+    pub samples: u32,
+    /// A folder of stored references to use instead of tracing.
+    pub reference: Option<PathBuf>,
+    /// Frames to measure times over.
+    pub frames: u32,
+    /// The command line, for the record.
+    pub command: Vec<String>,
+}
+
+/// A finished comparison.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The numbers.
+    pub report: Report,
+    /// The pictures that the numbers refer to.
+    pub pictures: Pictures,
+}
+
+impl Compare {
+    /// Runs all of it. What a technique can't do and what goes wrong in it is recorded in its place.
+    ///
+    /// # Errors
+    /// What stops everything: sizes beyond the adapter's limit, settings that can't be, references that can't be read.
+    pub fn run(&self, gpu: &Gpu, progress: &dyn Progress) -> Result<Outcome, Error> {
+        self.check(gpu)?;
+        let mut run = Run { plan: self, gpu, progress, pictures: Pictures::default() };
+        let mut scenes = Vec::new();
+        for (number, (source, lights)) in self.scenes.iter().enumerate() {
+            scenes.push(run.scene(number, source, lights)?);
+        }
+        let made = Made::now(self.command.clone(), gpu.adapter());
+        Ok(Outcome { report: Report { schema: SCHEMA, made, scenes }, pictures: run.pictures })
+    }
+
+    /// Everything that can be known to fail before the long work.
+    fn check(&self, gpu: &Gpu) -> Result<(), Error> {
+        gpu.check_size("a picture", self.size.0, self.size.1)?;
+        check_choices(&self.choices, gpu)?;
+        for (source, lights) in &self.scenes {
+            for &light in lights {
+                self.size_of(source, light)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The size asked for, or that of the stored reference.
+    fn size_of(&self, source: &Source, light: usize) -> Result<(u32, u32), Error> {
+        match &self.reference {
+            None => Ok(self.size),
+            Some(folder) => Ok(StoredReference::open(folder, &source.stem(), light)?.visibility.size()),
+        }
+    }
+}
+
+/// Makes each technique once, for settings that the adapter refuses. What it can't do at all is no error here.
+pub(crate) fn check_choices(choices: &[Choice], gpu: &Gpu) -> Result<(), Error> {
+    for choice in choices {
+        match choice.make(gpu) {
+            Ok(_) | Err(Error::Gpu(umbrage::Error::Unsupported { .. })) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(())
+}
+
+/// A comparison under way.
+struct Run<'a> {
+    plan: &'a Compare,
+    gpu: &'a Gpu,
+    progress: &'a dyn Progress,
+    pictures: Pictures,
+}
+
+impl Run<'_> {
+    fn scene(&mut self, number: usize, source: &Source, lights: &[usize]) -> Result<SceneRecord, Error> {
+        let scene = &source.scene;
+        let (width, height) = lights.first().map_or(Ok(self.plan.size), |&light| self.plan.size_of(source, light))?;
+        self.progress.begin(&format!("{}: geometry", scene.name), 1);
+        let tracing = Tracing::new(source, width, height);
+        self.progress.end();
+        let mut records = Vec::new();
+        for &light in lights {
+            let place = format!("{number}-{}-light{light}", source.stem());
+            records.push(self.light(source, light, &tracing, &place)?);
+        }
+        Ok(SceneRecord {
+            name: scene.name.clone(),
+            source: source.asked.clone(),
+            width,
+            height,
+            triangles: scene.triangle_count(),
+            instances: scene.instances.len(),
+            notes: source.notes.clone(),
+            lights: records,
+        })
+    }
+
+    /// One light under all techniques; `place` starts the names of its pictures.
+    fn light(&mut self, source: &Source, light: usize, tracing: &Tracing, place: &str) -> Result<LightRecord, Error> {
+        let scene = &source.scene;
+        let kind = scene.lights[light].shape.kind();
+        let what = |step: &str| format!("{}, light {light} ({}): {step}", scene.name, kind.name());
+
+        let (width, height) = tracing.geometry.depth.size();
+        self.progress.begin(&what("reference"), u64::from(width) * u64::from(height));
+        let truth = match &self.plan.reference {
+            Some(folder) => tracing.stored(folder, source, light, self.progress)?,
+            None => tracing.trace(&scene.lights[light], &scene.textures, self.plan.samples, self.progress),
+        };
+        self.progress.end();
+
+        let cell = Cell { gpu: self.gpu, source, light, truth: &truth, tracing, frames: self.plan.frames };
+        let reference = cell.reference(place, &mut self.pictures)?;
+        self.progress.begin(&what("techniques"), self.plan.choices.len() as u64);
+        let mut results = Vec::new();
+        for choice in &self.plan.choices {
+            results.push(cell.run(choice, place, &mut self.pictures));
+            self.progress.at(results.len() as u64);
+        }
+        self.progress.end();
+        Ok(LightRecord { light, kind: kind.name(), soft: kind.is_soft(), reference, results })
+    }
+}
+
+impl Outcome {
+    /// Writes `report.json`, `index.html` and the pictures.
+    ///
+    /// # Errors
+    /// A folder that can't be written to.
+    pub fn write(&self, folder: &Folder) -> Result<(), Error> {
+        for (name, bytes) in &self.pictures.files {
+            folder.write(name, bytes)?;
+        }
+        folder.write("report.json", self.json().as_bytes())?;
+        folder.write("index.html", html::page(&self.report, &self.pictures.files).as_bytes())
+    }
+
+    /// The text of `report.json`.
+    pub fn json(&self) -> String {
+        crate::json(&self.report)
+    }
+}

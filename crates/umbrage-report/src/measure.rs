@@ -1,0 +1,87 @@
+//! Times of repeated frames.
+
+use crate::spread::Spread;
+use std::time::{Duration, Instant};
+use umbrage::{Error, PassTime, Renderer};
+use umbrage_core::Camera;
+
+/// What some frames of one renderer took.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Frames {
+    frame_ms: Vec<f64>,
+    prepare_ms: Vec<f64>,
+    passes: Vec<Vec<PassTime>>,
+}
+
+impl Frames {
+    /// Renders a frame, waits for it and keeps its times.
+    pub(crate) fn add(&mut self, renderer: &mut Renderer, camera: &Camera) -> Result<(), Error> {
+        let start = Instant::now();
+        renderer.frame(camera)?;
+        renderer.wait()?;
+        self.frame_ms.push(start.elapsed().as_secs_f64() * 1e3);
+        self.prepare_ms.push(renderer.prepare_ms());
+        self.passes.push(renderer.times());
+        Ok(())
+    }
+
+    /// A frame to warm up, then up to `count` frames, fewer where they take longer than `limit` together.
+    pub(crate) fn measure(
+        renderer: &mut Renderer,
+        camera: &Camera,
+        count: u32,
+        limit: Duration,
+    ) -> Result<Self, Error> {
+        let start = Instant::now();
+        let mut warm_up = Self::default();
+        warm_up.add(renderer, camera)?;
+        // A frame that took the whole time alone is measurement enough, its pipelines aside.
+        let mut frames = Self::default();
+        while frames.frame_ms.is_empty() || frames.count() < count && start.elapsed() < limit {
+            frames.add(renderer, camera)?;
+        }
+        Ok(frames)
+    }
+
+    pub(crate) fn count(&self) -> u32 {
+        self.frame_ms.len() as u32
+    }
+
+    /// Whole frames, milliseconds.
+    pub(crate) fn frame(&self) -> Spread {
+        Spread::of(self.frame_ms.iter().copied())
+    }
+
+    /// The CPU's part before recording, milliseconds.
+    pub(crate) fn prepare(&self) -> Spread {
+        Spread::of(self.prepare_ms.iter().copied())
+    }
+
+    /// GPU time of each pass, in the order in which they were recorded. A pass that a frame left out took no time.
+    pub(crate) fn passes(&self) -> Vec<(String, String, Spread)> {
+        let mut names: Vec<(&str, &str)> = Vec::new();
+        for time in self.passes.iter().flatten() {
+            if !names.contains(&(&time.owner, &time.pass)) {
+                names.push((&time.owner, &time.pass));
+            }
+        }
+        let of = |(owner, pass): (&str, &str)| {
+            let is_it = |t: &&PassTime| t.owner == owner && t.pass == pass;
+            let times = self.passes.iter().map(|frame| frame.iter().find(is_it).map_or(0.0, |t| t.time_ms));
+            (owner.to_string(), pass.to_string(), Spread::of(times))
+        };
+        names.into_iter().map(of).collect()
+    }
+
+    /// GPU time of the technique's passes together; `None` where the adapter keeps no time.
+    pub(crate) fn technique(&self) -> Option<Spread> {
+        let sum = |frame: &Vec<PassTime>| frame.iter().filter(|t| is_of_technique(&t.owner)).map(|t| t.time_ms).sum();
+        let timed = self.passes.iter().any(|frame| !frame.is_empty());
+        timed.then(|| Spread::of(self.passes.iter().map(sum)))
+    }
+}
+
+/// The renderer calls the passes of a light's technique `light N`; others are its own.
+pub(crate) fn is_of_technique(owner: &str) -> bool {
+    owner.starts_with("light ")
+}

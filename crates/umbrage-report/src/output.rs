@@ -1,0 +1,95 @@
+//! Output that is whole or absent: places are checked before the work, files written beside and renamed.
+
+use crate::error::Error;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+use umbrage_io::pictures::save_bytes;
+
+/// A folder to write to.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    path: PathBuf,
+}
+
+impl Folder {
+    /// Makes the folder where it is missing, and makes sure that files can be written there, before long work starts.
+    ///
+    /// # Errors
+    /// [`Error::Output`].
+    pub fn create(path: &Path) -> Result<Self, Error> {
+        fs::create_dir_all(path).map_err(|e| Error::output(path, e))?;
+        check_folder(path)?;
+        Ok(Self { path: path.to_path_buf() })
+    }
+
+    /// Path of a file in it; `name` may hold folders, with `/`.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Writes a file whole or not at all.
+    ///
+    /// # Errors
+    /// [`Error::Output`] and [`Error::File`].
+    pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Error> {
+        let path = self.path(name);
+        if let Some(parent) = path.parent() {
+            fs::create_dir_all(parent).map_err(|e| Error::output(parent, e))?;
+        }
+        Ok(save_bytes(&path, bytes)?)
+    }
+}
+
+/// Makes sure that `path` can be written as a file, before long work starts.
+///
+/// # Errors
+/// [`Error::Output`] where it is a folder, or where its folder is missing or can't be written to.
+pub fn check_file(path: &Path) -> Result<(), Error> {
+    if path.is_dir() {
+        return Err(Error::output(path, "it is a folder, not a file"));
+    }
+    let folder = folder_of(path);
+    if !folder.is_dir() {
+        return Err(Error::output(path, format!("there is no folder {}", folder.display())));
+    }
+    check_folder(folder)
+}
+
+fn check_folder(folder: &Path) -> Result<(), Error> {
+    let probe = folder.join(format!(".umbrage-probe-{}", std::process::id()));
+    fs::write(&probe, b"").and_then(|()| fs::remove_file(&probe)).map_err(|e| Error::output(folder, e))
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_written_whole_and_nothing_else_stays() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = Folder::create(&place.path().join("a/b")).unwrap();
+        folder.write("pictures/x.png", b"one").unwrap();
+        folder.write("pictures/x.png", b"two").unwrap();
+        assert_eq!(fs::read(folder.path("pictures/x.png")).unwrap(), b"two");
+        assert_eq!(fs::read_dir(folder.path("pictures")).unwrap().count(), 1);
+        assert_eq!(fs::read_dir(place.path().join("a/b")).unwrap().count(), 1, "the probe stayed");
+    }
+
+    #[test]
+    fn a_file_in_the_way_is_named() {
+        let place = tempfile::tempdir().unwrap();
+        let file = place.path().join("file");
+        fs::write(&file, b"").unwrap();
+        let text = Folder::create(&file.join("deeper")).unwrap_err().to_string();
+        assert!(text.contains("file") && text.contains("can't write"), "{text}");
+        assert!(check_file(place.path()).unwrap_err().to_string().contains("folder"));
+        assert!(check_file(&place.path().join("none/x.png")).unwrap_err().to_string().contains("none"));
+        assert!(check_file(&place.path().join("x.png")).is_ok());
+    }
+}

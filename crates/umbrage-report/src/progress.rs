@@ -1,0 +1,21 @@
+//! How a long run tells where it is.
+
+/// Somebody who watches. Calls come from several threads.
+pub trait Progress: Sync {
+    /// A stage begins: what it is, and how many steps it has.
+    fn begin(&self, what: &str, steps: u64);
+    /// So many steps of the stage are done.
+    fn at(&self, done: u64);
+    /// The stage is over.
+    fn end(&self);
+}
+
+/// Nobody watches.
+#[derive(Clone, Copy, Debug)]
+pub struct Silent;
+
+impl Progress for Silent {
+    fn begin(&self, _: &str, _: u64) {}
+    fn at(&self, _: u64) {}
+    fn end(&self) {}
+}

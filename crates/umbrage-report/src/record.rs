@@ -1,0 +1,310 @@
+//! The data of `report.json`. Names are stable; a change that breaks readers raises [`SCHEMA`].
+
+use crate::{made::Made, round::maybe_six, round::six};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use umbrage_metrics::Scores;
+
+/// Version of the data in `report.json` and of what `bench` prints.
+pub const SCHEMA: u32 = 1;
+
+/// What `compare` found.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// [`SCHEMA`].
+    pub schema: u32,
+    /// Circumstances.
+    pub made: Made,
+    /// One for each scene, as given.
+    pub scenes: Vec<SceneRecord>,
+}
+
+/// A scene and what was found in it.
+#[derive(Clone, Debug, Serialize)]
+pub struct SceneRecord {
+    /// Its title.
+    pub name: String,
+    /// Registry name or path, as given.
+    pub source: String,
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Triangles, each instance counted.
+    pub triangles: usize,
+    /// Placed meshes.
+    pub instances: usize,
+    /// What the loader made up or left out.
+    pub notes: Vec<String>,
+    /// One for each light of the scene.
+    pub lights: Vec<LightRecord>,
+}
+
+/// A light and what the techniques made of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct LightRecord {
+    /// Its number in the scene, from 0.
+    pub light: usize,
+    /// `point`, `spot`, `directional`, `sun`, `sphere`, `ellipsoid`, `disc`, `rect` or `line`.
+    pub kind: &'static str,
+    /// True where it has an extent.
+    pub soft: bool,
+    /// The truth.
+    pub reference: ReferenceRecord,
+    /// One for each technique asked for.
+    pub results: Vec<ResultRecord>,
+}
+
+/// The truth that techniques are held against.
+#[derive(Clone, Debug, Serialize)]
+pub struct ReferenceRecord {
+    /// In words: how it was made, or the file it was read from.
+    pub source: String,
+    /// Rays for each scored pixel; null for a stored picture.
+    pub samples: Option<u32>,
+    /// Seconds that tracing it took.
+    #[serde(serialize_with = "six")]
+    pub seconds: f64,
+    /// Pixels that count: receiving surfaces that face the light, without those beside depth discontinuities.
+    pub scored_pixels: usize,
+    /// Mean absolute error of the perfect hard shadow, the unit of `vs_hard`; null for hard lights.
+    #[serde(serialize_with = "maybe_six")]
+    pub hard_mae: Option<f64>,
+    /// Pictures by kind, relative to the report: `color`, `visibility`.
+    pub pictures: BTreeMap<&'static str, String>,
+}
+
+/// How a technique's cell ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// Rendered and scored.
+    Ok,
+    /// The technique can't do this light; `reason` says so.
+    Unsupported,
+    /// Something went wrong; `reason` says what.
+    Failed,
+}
+
+/// What one technique made of one light.
+#[derive(Clone, Debug, Serialize)]
+pub struct ResultRecord {
+    /// Its id.
+    pub technique: String,
+    /// Its title.
+    pub title: String,
+    /// Parameters set away from their defaults.
+    pub settings: BTreeMap<String, String>,
+    /// Points of the light that were averaged by brute force; null without.
+    pub light_samples: Option<u32>,
+    /// How it ended.
+    pub status: Status,
+    /// Why it is not `ok`; null where it is.
+    pub reason: Option<String>,
+    /// Errors; null unless `ok`.
+    pub scores: Option<ScoresRecord>,
+    /// Costs; null unless `ok`.
+    pub cost: Option<CostRecord>,
+    /// Pictures by kind, relative to the report: `color`, `visibility`, `error`.
+    pub pictures: BTreeMap<&'static str, String>,
+}
+
+/// Errors over the scored pixels, see [`Scores`].
+#[derive(Clone, Debug, Serialize)]
+pub struct ScoresRecord {
+    /// See [`Scores::mae`]; so for the others.
+    #[serde(serialize_with = "six")]
+    pub mae: f64,
+    /// Root of the mean square.
+    #[serde(serialize_with = "six")]
+    pub rmse: f64,
+    /// 99th percentile.
+    #[serde(serialize_with = "six")]
+    pub p99: f64,
+    /// Structural similarity.
+    #[serde(serialize_with = "six")]
+    pub ssim: f64,
+    /// Mean ꟻLIP.
+    #[serde(serialize_with = "six")]
+    pub flip: f64,
+    /// Percentage correct.
+    #[serde(serialize_with = "six")]
+    pub correct_pct: f64,
+    /// Percentage correct far from shadow edges; null where there is no such pixel.
+    #[serde(serialize_with = "maybe_six")]
+    pub interior_pct: Option<f64>,
+    /// Mean light in the shadow.
+    #[serde(serialize_with = "six")]
+    pub leak: f64,
+    /// Mean shadow in the light.
+    #[serde(serialize_with = "six")]
+    pub false_shadow: f64,
+    /// Share of the error of a perfect hard shadow; null for hard lights.
+    #[serde(serialize_with = "maybe_six")]
+    pub vs_hard: Option<f64>,
+    /// Pixels compared.
+    pub scored_pixels: usize,
+    /// How many of them were NaN or infinite.
+    pub not_finite: usize,
+}
+
+impl From<Scores> for ScoresRecord {
+    fn from(s: Scores) -> Self {
+        Self {
+            mae: s.mae,
+            rmse: s.rmse,
+            p99: s.p99,
+            ssim: s.ssim,
+            flip: s.flip,
+            correct_pct: s.correct_pct,
+            interior_pct: s.interior_pct,
+            leak: s.leak,
+            false_shadow: s.false_shadow,
+            vs_hard: s.vs_hard,
+            scored_pixels: s.scored_pixels,
+            not_finite: s.not_finite,
+        }
+    }
+}
+
+/// What a technique costs. Times are medians over the frames after warm-up.
+#[derive(Clone, Debug, Serialize)]
+pub struct CostRecord {
+    /// Frames measured.
+    pub frames: u32,
+    /// GPU time of each of the technique's passes; empty where the adapter keeps no time.
+    pub passes: Vec<PassRecord>,
+    /// GPU time of all its passes; null where the adapter keeps no time.
+    #[serde(serialize_with = "maybe_six")]
+    pub gpu_ms: Option<f64>,
+    /// Time that the CPU prepares the frame.
+    #[serde(serialize_with = "six")]
+    pub prepare_ms: f64,
+    /// The whole frame from start to finished picture: G-buffer, shadow, shading.
+    #[serde(serialize_with = "six")]
+    pub frame_ms: f64,
+    /// Draw calls of the technique.
+    pub draws: u32,
+    /// Triangles it sends to the GPU.
+    pub triangles: u64,
+    /// GPU memory it holds, bytes.
+    pub bytes: u64,
+}
+
+/// GPU time of a pass.
+#[derive(Clone, Debug, Serialize)]
+pub struct PassRecord {
+    /// Its name.
+    pub pass: String,
+    /// Milliseconds.
+    #[serde(serialize_with = "six")]
+    pub time_ms: f64,
+}
+
+/// A small report for tests: one scene, one light, a result of each status.
+#[cfg(test)]
+pub(crate) fn fixture() -> Report {
+    let adapter = umbrage::AdapterSummary {
+        name: "llvmpipe".into(),
+        backend: "Vulkan".into(),
+        kind: "software",
+        driver: "Mesa".into(),
+    };
+    let result = |technique: &str, status, reason: Option<&str>| ResultRecord {
+        technique: technique.into(),
+        title: "A technique".into(),
+        settings: BTreeMap::from([("size".into(), "512".into())]),
+        light_samples: None,
+        status,
+        reason: reason.map(String::from),
+        scores: None,
+        cost: None,
+        pictures: BTreeMap::new(),
+    };
+    let mut good = result("shadow-map", Status::Ok, None);
+    good.scores = Some(ScoresRecord {
+        mae: 0.0123456789,
+        rmse: 0.1,
+        p99: 1.0,
+        ssim: 0.98,
+        flip: 0.02,
+        correct_pct: 98.5,
+        interior_pct: None,
+        leak: 0.01,
+        false_shadow: 0.0023456,
+        vs_hard: Some(1.5),
+        scored_pixels: 1000,
+        not_finite: 0,
+    });
+    good.cost = Some(CostRecord {
+        frames: 7,
+        passes: vec![PassRecord { pass: "map".into(), time_ms: 1.25 }],
+        gpu_ms: Some(2.5),
+        prepare_ms: 0.125,
+        frame_ms: 9.75,
+        draws: 12,
+        triangles: 3456,
+        bytes: 4 << 20,
+    });
+    let light = LightRecord {
+        light: 0,
+        kind: "line",
+        soft: true,
+        reference: ReferenceRecord {
+            source: "ray-traced, 256 samples".into(),
+            samples: Some(256),
+            seconds: 1.5,
+            scored_pixels: 1000,
+            hard_mae: Some(0.02),
+            pictures: BTreeMap::new(),
+        },
+        results: vec![
+            good,
+            result("pcf", Status::Unsupported, Some("not for line lights")),
+            result("volume", Status::Failed, Some("the graphics device was lost")),
+        ],
+    };
+    Report {
+        schema: SCHEMA,
+        made: Made::now(vec!["umbrage".into(), "compare".into()], &adapter),
+        scenes: vec![SceneRecord {
+            name: "boxes".into(),
+            source: "boxes.scene.toml".into(),
+            width: 64,
+            height: 48,
+            triangles: 100,
+            instances: 3,
+            notes: vec!["no camera: one was made".into()],
+            lights: vec![light],
+        }],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_numbers_in_json_are_stable() {
+        let json = serde_json::to_value(fixture()).unwrap();
+        assert_eq!(json["schema"], 1);
+        let results = &json["scenes"][0]["lights"][0]["results"];
+        assert_eq!(results[0]["scores"]["mae"], 0.0123457);
+        assert_eq!(results[0]["scores"]["interior_pct"], serde_json::Value::Null);
+        assert_eq!(results[0]["cost"]["bytes"], 4 << 20);
+        assert_eq!(
+            (&results[1]["status"], &results[1]["reason"]),
+            (&"unsupported".into(), &"not for line lights".into())
+        );
+        assert_eq!(results[2]["status"], "failed");
+    }
+
+    #[test]
+    fn every_column_finds_its_number() {
+        let result = serde_json::to_value(&fixture().scenes[0].lights[0].results[0]).unwrap();
+        for column in crate::column::COLUMNS {
+            let [group, field] = column.path;
+            assert!(result[group].get(field).is_some(), "column {} points at nothing", column.name);
+        }
+    }
+}

@@ -1,0 +1,243 @@
+//! One picture of a scene, or of what is inside a technique.
+
+use crate::{
+    choice::Choice, error::Error, given::Given, pictures::inverse_depth, progress::Progress, source::Source,
+    truth::Tracing,
+};
+use std::path::Path;
+use umbrage::{Gpu, LightPass, Renderer, Technique};
+use umbrage_core::Image;
+use umbrage_io::pictures;
+
+/// What a picture shows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Aov {
+    /// The shaded scene.
+    Color,
+    /// The share of one light that each pixel sees.
+    Visibility,
+    /// Which pixels are scored for one light: receiving surfaces that face it.
+    Scored,
+    /// Distance along the view.
+    Depth,
+    /// Geometric normals turned to the camera.
+    Normal,
+    /// A view into the technique, by its name.
+    Inside(String),
+}
+
+impl From<&str> for Aov {
+    fn from(name: &str) -> Self {
+        match name {
+            "color" => Self::Color,
+            "visibility" => Self::Visibility,
+            "scored" => Self::Scored,
+            "depth" => Self::Depth,
+            "normal" => Self::Normal,
+            other => Self::Inside(other.into()),
+        }
+    }
+}
+
+/// How visibility is found.
+#[derive(Clone, Debug)]
+pub enum Method {
+    /// By a technique on the GPU.
+    Technique(Choice),
+    /// By tracing this many rays for each pixel on the CPU.
+    RayTraced {
+        /// Rays for each pixel.
+        samples: u32,
+    },
+}
+
+/// A picture to take.
+#[derive(Clone, Debug)]
+pub struct Shot {
+    /// The scene.
+    pub source: Source,
+    /// The lights that shine; pictures of a single light take the first.
+    pub lights: Vec<usize>,
+    /// How visibility is found.
+    pub method: Method,
+    /// Pixels across and down.
+    pub size: (u32, u32),
+    /// What it shows.
+    pub aov: Aov,
+}
+
+/// A picture taken.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Picture {
+    /// sRGB.
+    Color(Image<[u8; 4]>),
+    /// Shares 0…1, and what is stored inside of techniques.
+    Share(Image<f32>),
+    /// Yes or no.
+    Mask(Image<bool>),
+    /// Metres along the view, 0 = nothing.
+    Depth(Image<f32>),
+    /// Unit vectors, zero = nothing.
+    Normal(Image<[f32; 3]>),
+}
+
+impl Shot {
+    /// Takes it.
+    ///
+    /// # Errors
+    /// Lights and settings that the technique can't do, sizes beyond the adapter's limit, unknown views.
+    pub fn take(&self, gpu: &Gpu, progress: &dyn Progress) -> Result<Picture, Error> {
+        gpu.check_size("the picture", self.size.0, self.size.1)?;
+        let scene = &self.source.scene;
+        match (&self.aov, &self.method) {
+            (Aov::Scored, _) => {
+                let tracing = self.tracing();
+                let truth = tracing.visibility(self.light()?, &scene.textures, 1, progress);
+                Ok(Picture::Mask(truth.scored))
+            }
+            (Aov::Visibility, Method::RayTraced { samples }) => {
+                Ok(Picture::Share(self.traced(*samples, progress)?.remove(0)))
+            }
+            (Aov::Depth, Method::RayTraced { .. }) => Ok(Picture::Depth(self.tracing().geometry.depth)),
+            (Aov::Normal, Method::RayTraced { .. }) => {
+                Ok(Picture::Normal(self.tracing().geometry.normal.map(|n| n.to_array())))
+            }
+            (Aov::Inside(name), Method::RayTraced { .. }) => Err(unknown_view(name, &[])),
+            (_, Method::RayTraced { samples }) => {
+                let truths = self.traced(*samples, progress)?;
+                let given = |visibility| Ok(Box::new(Given::new(gpu, visibility)?) as Box<dyn Technique>);
+                self.render(gpu, truths.iter().map(given).collect::<Result<_, Error>>()?)
+            }
+            (_, Method::Technique(choice)) => {
+                for &light in &self.lights {
+                    choice.supports(scene.lights[light].shape.kind())?;
+                }
+                self.render(gpu, self.lights.iter().map(|_| choice.make(gpu)).collect::<Result<_, _>>()?)
+            }
+        }
+    }
+
+    /// A frame with one technique for each light.
+    fn render(&self, gpu: &Gpu, techniques: Vec<Box<dyn Technique>>) -> Result<Picture, Error> {
+        let scene = &self.source.scene;
+        let passes = self.lights.iter().zip(techniques).map(|(&light, technique)| LightPass { light, technique });
+        let mut renderer = Renderer::new(gpu, scene, self.size.0, self.size.1, passes.collect())?;
+        renderer.frame(&scene.camera)?;
+        Ok(match &self.aov {
+            Aov::Color => Picture::Color(renderer.color()?),
+            Aov::Depth => Picture::Depth(renderer.depth(&scene.camera)?),
+            Aov::Normal => Picture::Normal(renderer.normal()?),
+            Aov::Visibility | Aov::Scored => Picture::Share(renderer.visibility(0)?),
+            Aov::Inside(name) => {
+                let views = renderer.technique(0).map(|t| t.debug_views()).unwrap_or_default();
+                let names: Vec<&str> = views.iter().map(|v| v.name).collect();
+                let view = views.iter().find(|v| v.name == name).ok_or_else(|| unknown_view(name, &names))?;
+                Picture::Share(renderer.read_debug_view(view)?)
+            }
+        })
+    }
+
+    fn light(&self) -> Result<&umbrage_core::Light, Error> {
+        let light = self.lights.first().and_then(|&light| self.source.scene.lights.get(light));
+        light.ok_or_else(|| Error::scene(&self.source.asked, "there is no light in it; add one"))
+    }
+
+    fn tracing(&self) -> Tracing {
+        Tracing::new(&self.source, self.size.0, self.size.1)
+    }
+
+    /// The truth about every light.
+    fn traced(&self, samples: u32, progress: &dyn Progress) -> Result<Vec<Image<f32>>, Error> {
+        self.light()?;
+        let scene = &self.source.scene;
+        let tracing = self.tracing();
+        let pixels = u64::from(self.size.0) * u64::from(self.size.1);
+        let trace = |&light: &usize| {
+            progress.begin(&format!("{}, light {light}: tracing", scene.name), pixels);
+            let truth = tracing.visibility(&scene.lights[light], &scene.textures, samples, progress);
+            progress.end();
+            truth.visibility
+        };
+        Ok(self.lights.iter().map(trace).collect())
+    }
+}
+
+fn unknown_view(name: &str, inside: &[&str]) -> Error {
+    let names = [&["color", "visibility", "scored", "depth", "normal"], inside].concat();
+    let nearest = crate::source::nearest(name, names.iter().copied());
+    let remedy = nearest.map_or(format!("there are {}", names.join(", ")), |n| format!("did you mean `{n}`?"));
+    Error::Name(format!("unknown picture `{name}`; {remedy}"))
+}
+
+impl Picture {
+    /// Checks that a file of this name can hold what `aov` shows, before the work.
+    ///
+    /// # Errors
+    /// An extension that can't.
+    pub fn check_name(aov: &Aov, path: &Path) -> Result<(), Error> {
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        match (extension.as_str(), aov) {
+            ("png", _) => Ok(()),
+            ("exr", Aov::Color | Aov::Scored) => Err(Error::output(path, "this picture is 8-bit: name it .png")),
+            ("exr", _) => Ok(()),
+            _ => Err(Error::output(path, "the name must end in .png or .exr")),
+        }
+    }
+
+    /// Writes the picture as the extension says: PNG to look at, EXR with the numbers as they are.
+    ///
+    /// In a PNG shares are 16-bit grey, depth is the nearest over the distance in 16-bit grey, normals are 8-bit (n + 1) / 2.
+    ///
+    /// # Errors
+    /// A file that can't be written.
+    pub fn save(&self, path: &Path) -> Result<(), Error> {
+        let is_exr = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"));
+        Ok(match self {
+            Self::Color(image) => pictures::save_png(path, image),
+            Self::Mask(image) => pictures::save_png(path, &image.map(|&m| if m { 255u8 } else { 0 })),
+            Self::Share(image) if is_exr => pictures::save_exr(path, image, "V"),
+            Self::Share(image) => pictures::save_grey16(path, image),
+            Self::Depth(image) if is_exr => pictures::save_exr(path, image, "Z"),
+            Self::Depth(image) => pictures::save_grey16(path, &inverse_depth(image)),
+            Self::Normal(image) if is_exr => pictures::save_exr_rgb(path, image),
+            Self::Normal(image) => {
+                let byte = |c: f32| ((c * 0.5 + 0.5).clamp(0.0, 1.0) * 255.0).round() as u8;
+                pictures::save_png(path, &image.map(|n| n.map(byte)))
+            }
+        }?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::progress::Silent;
+
+    #[test]
+    fn the_extension_must_fit_the_picture() {
+        let check = |aov: &str, name: &str| Picture::check_name(&Aov::from(aov), Path::new(name)).is_ok();
+        assert!(check("color", "a.png") && check("visibility", "a.EXR") && check("map", "a.exr"));
+        assert!(!check("color", "a.exr") && !check("depth", "a.jpg") && !check("depth", "a"));
+    }
+
+    #[test]
+    fn a_ray_traced_picture_of_a_light_is_between_umbra_and_full_light() {
+        let source = Source::open("contact").unwrap();
+        let gpu = match Gpu::request(None) {
+            Ok(gpu) => gpu,
+            Err(error) => panic!("{error}"),
+        };
+        let shot = Shot {
+            source,
+            lights: vec![0],
+            method: Method::RayTraced { samples: 4 },
+            size: (32, 24),
+            aov: Aov::Visibility,
+        };
+        let Picture::Share(picture) = shot.take(&gpu, &Silent).unwrap() else { panic!("no picture of shares") };
+        assert_eq!(picture.size(), (32, 24));
+        assert!(picture.data.iter().any(|v| *v == 1.0) && picture.data.contains(&0.0));
+        let unknown = Shot { aov: Aov::Inside("colour".into()), ..shot }.take(&gpu, &Silent).unwrap_err().to_string();
+        assert!(unknown.contains("did you mean `color`"), "{unknown}");
+    }
+}

@@ -1,0 +1,103 @@
+//! Scenes as users name them: a built-in one, with its detail, or a file.
+
+use crate::error::Error;
+use std::path::Path;
+use umbrage_core::{Scene, scenes};
+
+/// A scene and what there is to say about it.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// The name or path as given.
+    pub asked: String,
+    /// The scene, with at least one triangle and one light.
+    pub scene: Scene,
+    /// What the loader made up or left out.
+    pub notes: Vec<String>,
+}
+
+/// Extensions of files that are scenes.
+const EXTENSIONS: [&str; 4] = ["toml", "obj", "gltf", "glb"];
+
+impl Source {
+    /// Opens the built-in scene `name`, `name:detail`, or a file.
+    ///
+    /// # Errors
+    /// A name that is neither, with the nearest one; whatever is wrong with the file.
+    pub fn open(asked: &str) -> Result<Self, Error> {
+        let path = Path::new(asked);
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        let is_file = path.is_file() || EXTENSIONS.contains(&extension.as_str()) || asked.contains(['/', '\\']);
+        let (scene, notes) = if is_file {
+            let opened = umbrage_io::open(path)?;
+            (opened.scene, opened.notes)
+        } else {
+            (built_in(asked)?, Vec::new())
+        };
+        Ok(Self { asked: asked.into(), scene, notes })
+    }
+
+    /// A name for files: that of the scene file without its extensions, or of the built-in scene.
+    pub fn stem(&self) -> String {
+        let name = Path::new(&self.asked).file_name().unwrap_or_default().to_string_lossy();
+        let end = [".scene.toml", ".toml", ".obj", ".gltf", ".glb"].iter().find_map(|e| name.strip_suffix(e));
+        end.unwrap_or(&name).replace(':', "-")
+    }
+}
+
+fn built_in(asked: &str) -> Result<Scene, Error> {
+    let (id, detail) = asked.split_once(':').map_or((asked, None), |(id, detail)| (id, Some(detail)));
+    let entry = scenes::find(id).ok_or_else(|| unknown(id))?;
+    let detail = match detail {
+        None => 1.0,
+        Some(text) => text.parse::<f32>().ok().filter(|d| d.is_finite() && *d > 0.0).ok_or_else(|| {
+            Error::scene(asked, format!("the detail `{text}` is no number over 0; 1 is normal, such as {id}:0.5"))
+        })?,
+    };
+    Ok((entry.build)(detail))
+}
+
+fn unknown(id: &str) -> Error {
+    let names = scenes::SCENES.iter().map(|s| s.id);
+    Error::Name(match nearest(id, names.clone()) {
+        Some(name) => format!("unknown scene `{id}`; did you mean `{name}`?"),
+        None => format!(
+            "unknown scene `{id}`: neither a file (.scene.toml, .gltf, .glb, .obj) nor one of {}",
+            names.collect::<Vec<_>>().join(", ")
+        ),
+    })
+}
+
+/// The name among `known` nearest to `name`, where one is near enough to be meant.
+pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let distance = |k: &str| strsim::damerau_levenshtein(&name.to_lowercase(), k);
+    known.map(|k| (distance(k), k)).filter(|(d, k)| *d <= 1 + k.len() / 3).min().map(|(_, k)| k)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(asked: &str) -> String {
+        Source::open(asked).map(|s| s.stem()).unwrap_or_else(|e| e.to_string())
+    }
+
+    #[test]
+    fn built_in_scenes_open_with_a_detail() {
+        assert_eq!(text("contact"), "contact");
+        assert_eq!(text("city:0.1"), "city-0.1");
+        assert!(text("city:NaN").contains("no number over 0"));
+    }
+
+    #[test]
+    fn what_is_no_scene_is_named() {
+        assert!(text("primitivs").contains("did you mean `primitives`"));
+        assert!(text("xyzzy").contains("contact, overlap"));
+        assert!(text("missing.obj").contains("missing.obj"));
+    }
+
+    #[test]
+    fn a_file_lends_its_name() {
+        let source = Source { asked: "a/b/bunny.scene.toml".into(), scene: Scene::default(), notes: Vec::new() };
+        assert_eq!(source.stem(), "bunny");
+    }
+}

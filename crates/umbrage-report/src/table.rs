@@ -1,0 +1,95 @@
+//! The report on a terminal.
+
+use crate::{
+    column::{COLUMNS, Column},
+    record::{LightRecord, Report, ResultRecord, Status},
+};
+use comfy_table::{Attribute, Cell, CellAlignment, ContentArrangement, LineStyle, Table, presets::NOTHING};
+use serde_json::Value;
+
+/// A table for each light of each scene; the best number of a column is bold.
+pub fn tables(report: &Report) -> String {
+    let mut text = String::new();
+    for scene in &report.scenes {
+        for light in &scene.lights {
+            let kind = if light.soft { "soft" } else { "hard" };
+            text += &format!(
+                "\n{}, light {} ({}, {kind}), {}×{}; reference: {}\n",
+                scene.name, light.light, light.kind, scene.width, scene.height, light.reference.source
+            );
+            text += &light_table(light).to_string();
+            text += "\n";
+            for result in light.results.iter().filter(|r| r.status == Status::Failed) {
+                text += &format!("{}: {}\n", title(result), result.reason.as_deref().unwrap_or("failed"));
+            }
+        }
+    }
+    text
+}
+
+/// Id and settings of a result, as one would ask for it.
+pub(crate) fn title(result: &ResultRecord) -> String {
+    let set = result.settings.iter().map(|(k, v)| format!(" {k}={v}"));
+    let samples = result.light_samples.map(|n| format!(" light-samples={n}"));
+    std::iter::once(result.technique.clone()).chain(set).chain(samples).collect()
+}
+
+fn light_table(light: &LightRecord) -> Table {
+    let columns: Vec<Column> = COLUMNS.into_iter().filter(|c| c.brief).collect();
+    let values: Vec<Value> = light.results.iter().map(|r| serde_json::to_value(r).unwrap_or_default()).collect();
+    let best: Vec<Option<f64>> = columns.iter().map(|c| best(c, &values)).collect();
+    let mut table = plain(std::iter::once("technique").chain(columns.iter().map(|c| c.name)));
+    for (result, value) in light.results.iter().zip(&values) {
+        let mut row = vec![Cell::new(title(result))];
+        match result.status {
+            Status::Ok => row.extend(columns.iter().zip(&best).map(|(c, best)| {
+                let cell = Cell::new(c.text(value));
+                if best.is_some() && c.value(value) == *best { cell.add_attribute(Attribute::Bold) } else { cell }
+            })),
+            Status::Unsupported => row.push(Cell::new(result.reason.as_deref().unwrap_or_default())),
+            Status::Failed => row.push(Cell::new("failed, see below")),
+        }
+        table.add_row(row);
+    }
+    table
+}
+
+/// An empty table with a line under its heading; all columns but the first are aligned to the right.
+pub(crate) fn plain<'a>(heading: impl Iterator<Item = &'a str>) -> Table {
+    let mut table = Table::new();
+    let style = NOTHING.header_separator(LineStyle::none().fill('─').junction('─'));
+    table.load_style(style).set_content_arrangement(ContentArrangement::Dynamic).set_header(heading);
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+/// The best value of a column; `None` where there is no contest.
+fn best(column: &Column, results: &[Value]) -> Option<f64> {
+    let values: Vec<f64> = results.iter().filter_map(|r| column.value(r)).collect();
+    let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
+    (low < high).then(|| if column.better == Some("more") { high } else { low })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::fixture;
+
+    #[test]
+    fn every_result_is_in_the_table_or_below_it() {
+        let text = tables(&fixture());
+        for part in [
+            "boxes, light 0 (line, soft)",
+            "shadow-map size=512",
+            "0.0123",
+            "98.50",
+            "not for line lights",
+            "volume size=512: the graphics device was lost",
+            "4.00",
+        ] {
+            assert!(text.contains(part), "{part} is missing in\n{text}");
+        }
+    }
+}
