@@ -48,8 +48,8 @@ impl Mesh {
         self.normals = vec![Vec3::ZERO; self.positions.len()];
         for t in self.indices.as_chunks::<3>().0 {
             let corners = t.map(|i| self.positions[i as usize]);
-            for k in 0..3 {
-                self.normals[t[k] as usize] += face_normal(corners) * angle_at(corners, k);
+            for (k, &i) in t.iter().enumerate() {
+                self.normals[i as usize] += face_normal(corners) * angle_at(corners, k);
             }
         }
         for n in &mut self.normals {
@@ -65,8 +65,8 @@ impl Mesh {
         let faces: Vec<Vec3> = triangles.iter().map(|t| face_normal(self.corners(*t))).collect();
         let mut around = vec![Vec::new(); self.positions.len()];
         for (face, t) in triangles.iter().enumerate() {
-            for k in 0..3 {
-                around[t[k] as usize].push((face, angle_at(self.corners(*t), k)));
+            for (k, &i) in t.iter().enumerate() {
+                around[i as usize].push((face, angle_at(self.corners(*t), k)));
             }
         }
         let mut mesh = Mesh { name: self.name.clone(), ..Mesh::default() };

@@ -44,7 +44,7 @@ fn build(detail: f32) -> Scene {
     };
     place_ground(&mut scene, blocks, extent);
     place_buildings(&mut scene, buildings, side, extent);
-    let direction = sunlight(128.0, 38.0);
+    let direction = sunlight(24.0, 44.0);
     scene.lights = [0.0, SUN_ANGLE_DEG]
         .map(|angle_deg| light(LightShape::Directional { direction, angle_deg }, [1.0, 0.93, 0.8], 0.5))
         .to_vec();

@@ -42,8 +42,8 @@ fn build(detail: f32) -> Scene {
     let position = DVec3::new(-6.2, 2.7, 1.3);
     let warm = [1.0, 0.9, 0.76];
     scene.lights = vec![
-        light(LightShape::Point { position }, warm, 0.5),
-        light(LightShape::Sphere { position, radius: 0.6 }, warm, 0.5),
+        light(LightShape::Point { position }, warm, 0.8),
+        light(LightShape::Sphere { position, radius: 0.6 }, warm, 0.8),
     ];
     scene
 }

@@ -18,8 +18,8 @@ fn build(detail: f32) -> Scene {
     let mut scene = Scene {
         name: ENTRY.title.into(),
         camera: Camera {
-            eye: DVec3::new(1.1, 1.9, 10.0),
-            target: DVec3::new(-0.35, 1.75, 0.0),
+            eye: DVec3::new(0.5, 2.1, 10.5),
+            target: DVec3::new(-0.25, 1.55, 0.0),
             fov_y_deg: 55.0,
             ..Camera::default()
         },
@@ -46,7 +46,7 @@ fn build(detail: f32) -> Scene {
             scene.place(cube, rust, standing(foot + DVec3::Y * (height + 0.3), DVec3::new(0.85, 0.16, 0.85), turn_deg));
         }
     }
-    let direction = sunlight(171.0, 24.0);
+    let direction = sunlight(163.0, 21.0);
     scene.lights = [0.0, SUN_ANGLE_DEG]
         .map(|angle_deg| light(LightShape::Directional { direction, angle_deg }, [1.0, 0.82, 0.6], 0.6))
         .to_vec();

@@ -26,7 +26,7 @@ impl Detail {
     }
 }
 
-/// Random numbers that are the same on every run and every computer: SplitMix64 (Steele, Lea, Flood 2014).
+/// Random numbers that are the same on every run: SplitMix64 (Steele, Lea, Flood 2014).
 pub struct Rng(u64);
 
 impl Rng {

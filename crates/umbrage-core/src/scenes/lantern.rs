@@ -38,7 +38,7 @@ fn build(detail: f32) -> Scene {
     let candle = [1.0, 0.72, 0.42];
     scene.lights = vec![
         light(LightShape::Point { position }, candle, 0.7),
-        light(LightShape::Sphere { position, radius: 0.05 }, candle, 0.7),
+        light(LightShape::Sphere { position, radius: 0.04 }, candle, 0.7),
     ];
     scene
 }

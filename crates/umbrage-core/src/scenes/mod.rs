@@ -1,7 +1,7 @@
 //! Procedural scenes with a registry: the product works with nothing but its own source.
 //!
 //! A scene is one file with a `const ENTRY` and its line in [`SCENES`]. Light 0 is hard, light 1 soft; each file says
-//! what its lights are for. Building is deterministic, on every computer.
+//! what its lights are for. Building is deterministic.
 
 mod atrium;
 mod city;

@@ -32,11 +32,11 @@ fn build(detail: f32) -> Scene {
     };
     place_surroundings(&mut scene);
     place_fence(&mut scene, detail.count(32).max(2));
-    let position = DVec3::new(1.9, 2.7, 3.6);
+    let position = DVec3::new(2.6, 1.3, 4.4);
     let warm = [1.0, 0.92, 0.8];
     scene.lights = vec![
-        light(LightShape::Point { position }, warm, 0.45),
-        light(LightShape::Sphere { position, radius: 0.35 }, warm, 0.45),
+        light(LightShape::Point { position }, warm, 0.6),
+        light(LightShape::Sphere { position, radius: 0.16 }, warm, 0.6),
     ];
     scene
 }

@@ -43,7 +43,7 @@ fn build(detail: f32) -> Scene {
     plant(&mut scene, &hills, detail);
     let direction = sunlight(118.0, 33.0);
     scene.lights = [0.0, SUN_ANGLE_DEG]
-        .map(|angle_deg| light(LightShape::Directional { direction, angle_deg }, [1.0, 0.92, 0.76], 0.55))
+        .map(|angle_deg| light(LightShape::Directional { direction, angle_deg }, [1.0, 0.92, 0.76], 0.75))
         .to_vec();
     scene
 }
@@ -81,10 +81,10 @@ fn plant(scene: &mut Scene, hills: &Hills, detail: Detail) {
     }
 }
 
-/// Where trees stand: three to frame the view, the others by chance where a slow noise wants groves, with room
+/// Where trees stand: four in the middle of the view, the others by chance where a slow noise wants groves, with room
 /// between them and a clearing before the camera.
 fn places(rng: &mut Rng, count: u32) -> Vec<DVec2> {
-    let mut places = vec![DVec2::new(-7.5, 45.0), DVec2::new(13.0, 41.0), DVec2::new(-1.5, 30.0)];
+    let mut places = vec![DVec2::new(12.5, 47.0), DVec2::new(-6.5, 43.0), DVec2::new(2.5, 38.0), DVec2::new(9.5, 33.0)];
     // Bounded: at high counts the groves are full before all have found room.
     for _ in 0..60 * count {
         if places.len() >= count as usize {

@@ -25,7 +25,7 @@ const GALLERY: f64 = 4.2;
 const WALL: f64 = 0.6;
 /// Height of the gallery's floor over the court.
 const STEP: f64 = 0.2;
-/// Balusters in a bay.
+/// Balusters in a bay; fewer at low detail.
 const BALUSTERS: u32 = 9;
 
 /// Heights in metres over the court.
@@ -59,6 +59,7 @@ struct Stock {
     columns: [usize; 2],
     arches: [usize; 2],
     baluster: usize,
+    balusters_in_bay: u32,
     door: usize,
     stone: usize,
     pale: usize,
@@ -97,8 +98,8 @@ fn build(detail: f32) -> Scene {
     let mut scene = Scene {
         name: ENTRY.title.into(),
         camera: Camera {
-            eye: DVec3::new(-7.6, 2.5, 12.9),
-            target: DVec3::new(1.6, 4.6, -4.0),
+            eye: DVec3::new(-8.3, 3.1, 12.7),
+            target: DVec3::new(1.9, 4.3, -4.0),
             fov_y_deg: 62.0,
             ..Camera::default()
         },
@@ -120,15 +121,15 @@ fn build(detail: f32) -> Scene {
     }
     place_court(&mut scene, detail);
     scene.lights = vec![
-        light(LightShape::Directional { direction: sunlight(128.0, 54.0), angle_deg: 0.0 }, [1.0, 0.93, 0.82], 0.6),
+        light(LightShape::Directional { direction: sunlight(128.0, 54.0), angle_deg: 0.0 }, [1.0, 0.93, 0.82], 0.72),
         light(LightShape::Sphere { position: LAMP, radius: LAMP_RADIUS }, [1.0, 0.78, 0.5], 0.35),
     ];
     scene
 }
 
 fn stock(scene: &mut Scene, detail: Detail) -> Stock {
-    let cut = Cut { around: detail.segments(36, 6), arc: detail.segments(6, 2) };
-    let fine = Cut { around: detail.segments(18, 5), arc: detail.segments(5, 2) };
+    let cut = Cut { around: detail.segments(30, 6), arc: detail.segments(5, 2) };
+    let fine = Cut { around: detail.segments(14, 4), arc: detail.segments(5, 1) };
     let arc = detail.segments(48, 8);
     Stock {
         cube: scene.add_mesh(primitive::cube()),
@@ -137,6 +138,7 @@ fn stock(scene: &mut Scene, detail: Detail) -> Stock {
             .each_ref()
             .map(|s| scene.add_mesh(parts::arch(BAY, s.top - s.springing(), s.arch_radius, WALL, arc))),
         baluster: scene.add_mesh(parts::baluster(fine)),
+        balusters_in_bay: detail.segments(BALUSTERS, 4).min(BALUSTERS),
         door: scene.add_mesh(parts::door(detail.segments(24, 6))),
         stone: scene.add_material(matte(0.78, 0.7, 0.58)),
         pale: scene.add_material(glossy(0.82, 0.78, 0.7)),
@@ -155,7 +157,7 @@ fn place_box(scene: &mut Scene, stock: &Stock, side: &Side, material: usize, [x,
 fn place_walls(scene: &mut Scene, stock: &Stock, side: &Side) {
     let half = side.length() * 0.5 + if side.covers_corners { GALLERY } else { 0.0 };
     let roof = STOREYS[1].top + CORNICE;
-    let wall_half = half + if side.covers_corners { 0.3 } else { 0.0 };
+    let wall_half = side.length() * 0.5 + GALLERY + if side.covers_corners { 0.3 } else { 0.0 };
     let wall = [-GALLERY - 0.3, -GALLERY];
     place_box(scene, stock, side, stock.plaster, [[-wall_half, wall_half], [0.0, roof], wall]);
     let along = [-half, half];
@@ -213,8 +215,8 @@ fn place_balustrade(scene: &mut Scene, stock: &Stock, side: &Side) {
         let top = [floor + pedestal - 0.13, floor + pedestal];
         place_box(scene, stock, side, stock.pale, [along, bottom, [-0.17, 0.17]]);
         place_box(scene, stock, side, stock.pale, [along, top, [-0.2, 0.2]]);
-        for i in 0..BALUSTERS {
-            let t = (f64::from(i) + 0.5) / f64::from(BALUSTERS);
+        for i in 0..stock.balusters_in_bay {
+            let t = (f64::from(i) + 0.5) / f64::from(stock.balusters_in_bay);
             let foot = DVec3::new(along[0] + t * (along[1] - along[0]), bottom[1], 0.0);
             let size = DVec3::new(0.75, top[0] - bottom[1], 0.75);
             scene.place(stock.baluster, stock.pale, side.world_from_side * sized(foot, size, 0.0));
@@ -250,7 +252,7 @@ fn place_court(scene: &mut Scene, detail: Detail) {
     let cypress = scene.add_mesh(parts::cypress(cut));
     let clay = scene.add_material(matte(0.58, 0.28, 0.18));
     let green = scene.add_material(matte(0.12, 0.24, 0.11));
-    for (x, z) in [(-5.5, -8.5), (5.5, -8.5), (-5.5, 0.0), (5.5, 0.0), (-5.5, 8.5), (5.5, 8.5)] {
+    for (x, z) in [(-6.8, -4.0), (6.8, -4.0), (-6.8, 4.0), (6.8, 4.0)] {
         scene.place(pot, clay, at(x, 0.0, z));
         scene.place(cypress, green, at(x, 0.58, z));
     }
