@@ -33,7 +33,8 @@ pub fn umbrage(profile: Profile, arguments: &[&str]) -> Command {
     if profile == Profile::Release {
         command.arg("--release");
     }
-    command.arg("--").args(arguments);
+    // Keeps Mesa's device chooser from looking for a desktop and complaining where there is none.
+    command.env("NODEVICE_SELECT", "1").arg("--").args(arguments);
     command
 }
 

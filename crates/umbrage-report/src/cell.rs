@@ -13,7 +13,8 @@ use crate::{
 use std::{collections::BTreeMap, time::Duration};
 use umbrage::{Gpu, LightPass, Renderer, Technique};
 use umbrage_core::Image;
-use umbrage_metrics::{Comparison, Scores, heat, score};
+use umbrage_metrics::{Comparison, Scores, heat, map_reach, score};
+use umbrage_reference::Geometry;
 
 /// What all techniques on one light share.
 pub(crate) struct Cell<'a> {
@@ -68,7 +69,7 @@ impl Cell<'_> {
         let mut renderer = self.renderer(choice.make(self.gpu)?)?;
         let frames = Frames::measure(&mut renderer, &self.source.scene.camera, self.frames, TIME_LIMIT)?;
         let visibility = renderer.visibility(0)?;
-        let scores = self.score(&visibility, None)?;
+        let scores = self.score(&visibility, self.reach(&renderer).as_ref())?;
         record.scores = Some(scores.into());
         record.cost = Some(cost(&frames, &renderer));
         let error = heat(&visibility, &self.truth.visibility, &self.truth.mask);
@@ -86,10 +87,13 @@ impl Cell<'_> {
         let Truth { visibility, mask, hard, source, samples, seconds } = self.truth;
         let mut renderer = self.renderer(Box::new(Given::new(self.gpu, visibility)?))?;
         renderer.frame(&self.source.scene.camera)?;
-        let shown = BTreeMap::from([
+        let mut shown = BTreeMap::from([
             ("color", pictures.add(&format!("{place}-reference-color"), &opaque(&renderer.color()?))?),
             ("visibility", pictures.add(&format!("{place}-reference-visibility"), &grey(visibility))?),
         ]);
+        if let Some(hard) = hard {
+            shown.insert("hard", pictures.add(&format!("{place}-reference-hard"), &grey(hard))?);
+        }
         let hard_mae = hard.as_ref().map(|hard| self.score(hard, None)).transpose()?.map(|s| s.mae);
         Ok(ReferenceRecord {
             source: source.clone(),
@@ -105,6 +109,13 @@ impl Cell<'_> {
     pub(crate) fn score(&self, produced: &Image<f32>, reach: Option<&Image<f32>>) -> Result<Scores, Error> {
         let Truth { visibility, mask, hard, .. } = self.truth;
         Ok(score(&Comparison { produced, reference: visibility, mask, hard: hard.as_ref(), reach })?)
+    }
+
+    /// For techniques with maps: how far from a shadow edge the resolution of the maps is to blame.
+    fn reach(&self, renderer: &Renderer) -> Option<Image<f32>> {
+        let views = renderer.technique(0)?.light_views();
+        let Geometry { depth, normal, .. } = &self.tracing.geometry;
+        (!views.is_empty()).then(|| map_reach(views, &self.source.scene.camera, depth, normal))
     }
 
     fn renderer(&self, technique: Box<dyn Technique>) -> Result<Renderer, Error> {

@@ -12,7 +12,8 @@ pub struct Column {
     pub help: &'static str,
     /// Where it is in a result of `report.json`.
     pub path: [&'static str; 2],
-    /// `less` or `more` is better; null where neither is.
+    /// `less` or `more` is better, and the best is marked; null for halves of an error and for costs, where doing nothing
+    /// wins.
     pub better: Option<&'static str>,
     /// What one unit of the heading is in units of the data.
     pub scale: f64,
@@ -22,8 +23,14 @@ pub struct Column {
     pub brief: bool,
 }
 
-const fn score(name: &'static str, better: &'static str, digits: usize, brief: bool, help: &'static str) -> Column {
-    Column { name, help, path: ["scores", name], better: Some(better), scale: 1.0, digits, brief }
+const fn score(
+    name: &'static str,
+    better: Option<&'static str>,
+    digits: usize,
+    brief: bool,
+    help: &'static str,
+) -> Column {
+    Column { name, help, path: ["scores", name], better, scale: 1.0, digits, brief }
 }
 
 const fn cost(
@@ -34,35 +41,35 @@ const fn cost(
     brief: bool,
     help: &'static str,
 ) -> Column {
-    Column { name, help, path: ["cost", field], better: Some("less"), scale, digits, brief }
+    Column { name, help, path: ["cost", field], better: None, scale, digits, brief }
 }
 
 /// All of them, errors first.
 pub const COLUMNS: [Column; 16] = [
-    score("mae", "less", 4, true, "Mean absolute error of visibility over the scored pixels, 0 to 1."),
-    score("rmse", "less", 4, false, "Root of the mean squared error: large errors weigh more."),
-    score("p99", "less", 3, false, "99 of 100 scored pixels are off by no more than this."),
-    score("ssim", "more", 4, false, "Structural similarity to the reference: 1 is the same."),
+    score("mae", Some("less"), 4, true, "Mean absolute error of visibility over the scored pixels, 0 to 1."),
+    score("rmse", Some("less"), 4, false, "Root of the mean squared error: large errors weigh more."),
+    score("p99", Some("less"), 3, false, "99 of 100 scored pixels are off by no more than this."),
+    score("ssim", Some("more"), 4, false, "Structural similarity to the reference: 1 is the same."),
     score(
         "flip",
-        "less",
+        Some("less"),
         4,
         false,
         "ꟻLIP: the difference seen by somebody who flips between the two pictures, 0 to 1.",
     ),
-    score("correct_pct", "more", 2, true, "Percentage of scored pixels whose visibility is off by at most 0.02."),
+    score("correct_pct", Some("more"), 2, true, "Percentage of scored pixels whose visibility is off by at most 0.02."),
     score(
         "interior_pct",
-        "more",
+        Some("more"),
         2,
         true,
         "Percentage correct far from every shadow edge: acne and peter-panning show here.",
     ),
-    score("leak", "less", 4, false, "Mean light where there should be shadow."),
-    score("false_shadow", "less", 4, false, "Mean shadow where there should be light."),
+    score("leak", None, 4, false, "Mean light where there should be shadow."),
+    score("false_shadow", None, 4, false, "Mean shadow where there should be light."),
     score(
         "vs_hard",
-        "less",
+        Some("less"),
         3,
         true,
         "Error as a share of that of a perfect hard shadow: 1 is no better than hard, 0 is the truth. Soft lights only.",

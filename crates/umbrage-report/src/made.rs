@@ -11,8 +11,8 @@ pub struct Made {
     pub date: String,
     /// Version of umbrage.
     pub version: &'static str,
-    /// Abbreviated git commit of the working folder, with `+` where files differ from it; null outside a repository.
-    pub commit: Option<String>,
+    /// Abbreviated git commit that the program was built from, changes beyond it aside; null where it is not known.
+    pub commit: Option<&'static str>,
     /// The command line, word by word.
     pub command: Vec<String>,
     /// The computer.
@@ -58,7 +58,7 @@ impl Made {
         Self {
             date: rfc3339(SystemTime::now()),
             version: env!("CARGO_PKG_VERSION"),
-            commit: commit(),
+            commit: option_env!("UMBRAGE_COMMIT"),
             command,
             machine: Machine::this(),
             adapter: adapter.into(),
@@ -84,12 +84,6 @@ fn cpu_name() -> Option<String> {
     };
     let from_sysctl = || output("sysctl", &["-n", "machdep.cpu.brand_string"]);
     from_proc().or_else(from_sysctl).or_else(|| std::env::var("PROCESSOR_IDENTIFIER").ok())
-}
-
-fn commit() -> Option<String> {
-    let commit = output("git", &["rev-parse", "--short=12", "HEAD"])?;
-    let clean = output("git", &["status", "--porcelain", "--untracked-files=no"]).is_none();
-    Some(if clean { commit } else { format!("{commit}+") })
 }
 
 /// What a program printed, trimmed; `None` where it failed or printed nothing.

@@ -70,7 +70,7 @@ pub struct ReferenceRecord {
     /// Mean absolute error of the perfect hard shadow, the unit of `vs_hard`; null for hard lights.
     #[serde(serialize_with = "maybe_six")]
     pub hard_mae: Option<f64>,
-    /// Pictures by kind, relative to the report: `color`, `visibility`.
+    /// Pictures by kind, relative to the report: `color`, `visibility`, and `hard` for soft lights.
     pub pictures: BTreeMap<&'static str, String>,
 }
 

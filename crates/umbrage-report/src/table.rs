@@ -69,7 +69,8 @@ pub(crate) fn plain<'a>(heading: impl Iterator<Item = &'a str>) -> Table {
 fn best(column: &Column, results: &[Value]) -> Option<f64> {
     let values: Vec<f64> = results.iter().filter_map(|r| column.value(r)).collect();
     let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
-    (low < high).then(|| if column.better == Some("more") { high } else { low })
+    let better = column.better.filter(|_| low < high)?;
+    Some(if better == "more" { high } else { low })
 }
 
 #[cfg(test)]

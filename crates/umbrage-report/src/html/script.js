@@ -8,11 +8,11 @@ function el(tag, attributes = {}, ...children) {
     if (name === "onclick") node.addEventListener("click", value);
     else if (value !== null && value !== undefined && value !== false) node.setAttribute(name, value);
   }
-  node.append(...children.flat().filter((c) => c !== null && c !== undefined));
+  node.append(...children.flat(Infinity).filter((c) => c !== null && c !== undefined));
   return node;
 }
 
-const KINDS = [["color", "Shaded"], ["visibility", "Visibility"], ["error", "Signed error"]];
+const KINDS = [["color", "Shaded"], ["visibility", "Visibility"], ["error", "Signed error"], ["hard", "Perfect hard shadow"]];
 const COLUMNS = metrics.map((m) => ({ ...m, value: (r) => m.path.reduce((v, key) => v?.[key], r) ?? null }));
 
 function number(value, column) {
@@ -20,6 +20,8 @@ function number(value, column) {
   const scaled = value / column.scale;
   return scaled.toFixed(column.digits);
 }
+
+const count = (n, what) => `${n} ${what}${n === 1 ? "" : "s"}`;
 
 function label(result) {
   const set = Object.entries(result.settings).map(([k, v]) => `${k}=${v}`);
@@ -39,7 +41,7 @@ function best(results, column) {
 
 /** A header cell that sorts the rows of its table by column `index`. */
 function sortable(text, title, index, group) {
-  const cell = el("th", { title, class: group ? "group" : null, scope: "col" });
+  const cell = el("th", { title, class: group ? "first" : null, scope: "col" });
   cell.append(el("button", { type: "button", onclick: () => sort(cell, index) }, text));
   return cell;
 }
@@ -218,7 +220,7 @@ function header() {
   const lights = report.scenes.reduce((n, s) => n + s.lights.length, 0);
   const techniques = new Set(report.scenes.flatMap((s) => s.lights.flatMap((l) => l.results.map((r) => r.technique)))).size;
   document.getElementById("lead").textContent =
-    `${techniques} techniques on ${report.scenes.length} scenes with ${lights} lights. Each answers one question, which share of the light does a point see, and is compared pixel by pixel with the ray-traced answer.`;
+    `${count(techniques, "technique")} on ${count(report.scenes.length, "scene")} with ${count(lights, "light")}. Each technique answers one question, which share of the light does a point see, and is compared pixel by pixel with the ray-traced answer.`;
   document.getElementById("facts").append(...[
     fact("made", made.date.replace("T", " ").replace("Z", " UTC")),
     fact("adapter", `${made.adapter.name} (${made.adapter.kind}, ${made.adapter.backend})`),

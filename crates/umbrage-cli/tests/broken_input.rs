@@ -1,0 +1,108 @@
+//! Broken input gives one clear line and exit code 2; nothing is written and nothing panics.
+
+mod common;
+
+use common::{files, umbrage};
+use std::fs;
+
+const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+const SCENE: &str = "\
+[camera]
+eye = [0, 1, 5]
+target = [0, 0, 0]
+fov_y = 45
+
+[[model]]
+primitive = \"plane\"
+size = [4, 4]
+
+[[light]]
+kind = \"point\"
+position = [1, 3, 1]
+";
+
+/// Runs `umbrage arguments` beside `input` files and wants one line with all of `parts`.
+fn refused(input: &[(&str, &[u8])], arguments: &str, parts: &[&str]) {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, bytes) in input {
+        fs::write(folder.path().join(name), bytes).expect("an input file");
+    }
+    let before = files(folder.path());
+    let arguments: Vec<&str> = arguments.split_whitespace().collect();
+    let output = umbrage(folder.path(), &arguments);
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "umbrage {arguments:?} ended with {:?}:\n{text}", output.status);
+    assert_eq!(text.trim_end().lines().count(), 1, "umbrage {arguments:?} printed not one line:\n{text}");
+    assert!(text.starts_with("error: "), "{text}");
+    for part in parts {
+        assert!(text.contains(part), "umbrage {arguments:?}: `{part}` is missing in\n{text}");
+    }
+    assert!(output.stdout.is_empty(), "umbrage {arguments:?} printed {}", String::from_utf8_lossy(&output.stdout));
+    assert_eq!(files(folder.path()), before, "umbrage {arguments:?} left files");
+}
+
+#[test]
+fn names_that_are_not_known_come_with_the_nearest() {
+    refused(&[], "render primitivs -o a.png", &["primitivs", "did you mean `primitives`"]);
+    refused(&[], "render contact --technique shadowmap -o a.png", &["shadowmap", "did you mean `shadow-map`"]);
+    refused(&[], "render contact --technique shadow-map --set siez=1 -o a.png", &["siez", "did you mean `size`"]);
+    refused(&[], "compare contact --techniques none,pfc -o out", &["pfc", "did you mean `pcf`"]);
+    refused(&[], "compare contact --set pfc.size=1 -o out", &["pfc", "did you mean `pcf`"]);
+    refused(&[], "render contact --siez 4x4 -o a.png", &["--siez", "--size"]);
+    refused(&[], "rendr contact", &["rendr", "render"]);
+}
+
+#[test]
+fn values_out_of_range_name_the_range() {
+    refused(&[], "render contact --technique shadow-map --set size=0 -o a.png", &["size", "1 to"]);
+    refused(&[], "render contact --light 9 -o a.png", &["no light 9", "0 to"]);
+    refused(&[], "render contact --size 0x480 -o a.png", &["0x480", "at least 1"]);
+    refused(&[], "render contact --size 640 -o a.png", &["WIDTHxHEIGHT"]);
+    refused(&[], "render contact:nan -o a.png", &["nan", "over 0"]);
+    refused(&[], "compare contact --samples 0 -o out", &["--samples", "1.."]);
+    refused(&[], "render contact --aov visibility -o a.png", &["--light"]);
+    refused(&[], "render contact --technique none --light-samples 4 -o a.png", &["not a hard technique"]);
+}
+
+#[test]
+fn broken_scene_files_name_file_line_and_key() {
+    let with = |from: &str, to: &str| SCENE.replace(from, to).into_bytes();
+    let scene = |bytes: Vec<u8>, parts: &[&str]| refused(&[("s.scene.toml", &bytes)], "info s.scene.toml", parts);
+    scene(with("fov_y", "fov"), &["s.scene.toml", "2", "fov"]);
+    scene(with("\"point\"", "\"pont\""), &["s.scene.toml", "pont", "point"]);
+    scene(with("[0, 0, 0]", "[0, 1, 5]"), &["s.scene.toml", "target"]);
+    scene(with("[1, 3, 1]", "[1, nan, 1]"), &["s.scene.toml", "position"]);
+    scene(with("primitive = \"plane\"", "path = \"gone.obj\""), &["gone.obj"]);
+    scene(with("[camera]", "[camera"), &["s.scene.toml", "1"]);
+}
+
+#[test]
+fn broken_models_are_named() {
+    refused(&[], "info gone.obj", &["gone.obj"]);
+    refused(&[("a.obj", b"v 0 0 0\nv 1 0 0\nf 1 2 9\n")], "info a.obj", &["a.obj", "9"]);
+    refused(&[("a.obj", TRIANGLE.replace("0 1 0", "0 nan 0").as_bytes())], "info a.obj", &["a.obj", "3"]);
+    refused(&[("a.obj", b"# nothing\n")], "info a.obj", &["a.obj", "triangle"]);
+    refused(&[("a.gltf", b"{ \"asset\": { \"version\": ")], "info a.gltf", &["a.gltf"]);
+    refused(&[("a.glb", b"glTF\x02\0\0\0\xff\0\0\0")], "info a.glb", &["a.glb"]);
+}
+
+#[test]
+fn places_that_cannot_be_written_are_named_before_the_work() {
+    refused(&[], "render contact -o gone/a.png", &["gone"]);
+    refused(&[], "render contact -o a.jpg", &["a.jpg", ".png"]);
+    refused(&[], "render contact --aov color -o a.exr", &["a.exr", ".png"]);
+    refused(&[("file", b"")], "compare contact -o file/out", &["file", "-o"]);
+    refused(&[], "compare contact --reference gone -o out", &["gone"]);
+}
+
+#[test]
+fn an_adapter_that_is_not_there_is_named() {
+    refused(&[], "render contact --adapter xyzzy -o a.png", &["adapter"]);
+}
+
+#[test]
+fn a_size_beyond_the_adapter_is_refused_with_its_limit() {
+    refused(&[], "render contact --size 999999x4 -o a.png", &["999999", "the adapter allows 1 to"]);
+    refused(&[], "bench contact --size 999999x4", &["999999", "the adapter allows 1 to"]);
+}

@@ -1,0 +1,196 @@
+//! What `render`, `compare` and `bench` make. They need a graphics adapter: where there is none they fail, and the
+//! message says how to get one.
+
+mod common;
+
+use common::{files, output, umbrage};
+use serde_json::Value;
+use std::{fs, path::Path};
+use umbrage_core::Image;
+use umbrage_io::pictures::{load_grey, save_grey16, save_png};
+
+#[test]
+fn render_writes_every_kind_of_picture() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let pictures = [
+        ("color", "a.png", "shadow-map"),
+        ("visibility", "b.png", "shadow-map"),
+        ("visibility", "c.exr", "pcf"),
+        ("visibility", "d.exr", "ray-traced"),
+        ("color", "e.png", "ray-traced"),
+        ("scored", "f.png", "none"),
+        ("depth", "g.exr", "none"),
+        ("depth", "h.png", "ray-traced"),
+        ("normal", "i.png", "none"),
+        ("normal", "j.exr", "ray-traced"),
+    ];
+    for (aov, name, technique) in pictures {
+        let samples: &[&str] = if technique == "ray-traced" { &["--samples", "4"] } else { &[] };
+        let arguments =
+            ["render", "contact", "--technique", technique, "--light", "0", "--size", "64x48", "--aov", aov];
+        output(folder.path(), &[&arguments[..], samples, &["-o", name]].concat());
+        assert!(fs::metadata(folder.path().join(name)).is_ok_and(|m| m.len() > 50), "{name} was not written");
+    }
+    let load = |name: &str| load_grey(&folder.path().join(name)).expect("a grey picture");
+    let (png, traced) = (load("b.png"), load("d.exr"));
+    assert_eq!((png.size(), traced.size()), ((64, 48), (64, 48)));
+    assert!(traced.data.contains(&0.0) && traced.data.contains(&1.0), "no shadow or no light");
+    assert_eq!(files(folder.path()).len(), pictures.len(), "something else was left behind");
+}
+
+#[test]
+fn compare_writes_report_page_and_pictures() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let arguments = ["compare", "contact", "--techniques", "all", "--samples", "8", "--size", "96x72", "--frames", "2"];
+    let printed = output(folder.path(), &[&arguments[..], &["-o", "out", "--json"]].concat());
+    let written = fs::read_to_string(folder.path().join("out/report.json")).expect("report.json");
+    assert_eq!(printed, written);
+    let report: Value = serde_json::from_str(&written).expect("JSON");
+    assert_eq!(report["schema"], 1);
+    let lights = report["scenes"][0]["lights"].as_array().expect("lights");
+    assert!(!lights.is_empty());
+    for light in lights {
+        let results = light["results"].as_array().expect("results");
+        assert_eq!(results.len(), umbrage::techniques().len(), "a technique is missing");
+        for result in results {
+            assert_ne!(result["status"], "failed", "{result}");
+            if result["status"] == "unsupported" {
+                assert!(result["reason"].as_str().is_some_and(|r| r.starts_with("not for")), "{result}");
+                continue;
+            }
+            assert!(result["scores"]["mae"].is_number() && result["cost"]["frame_ms"].is_number(), "{result}");
+            for kind in ["color", "visibility", "error"] {
+                let name = result["pictures"][kind].as_str().expect("a picture");
+                assert!(folder.path().join("out").join(name).is_file(), "{name} was not written");
+            }
+        }
+    }
+    let page = fs::read_to_string(folder.path().join("out/index.html")).expect("index.html");
+    assert!(page.contains("data:image/png;base64,") && !page.contains("http"), "the page is not self-contained");
+}
+
+#[test]
+fn bench_sets_techniques_against_the_floor() {
+    let arguments = "bench contact --techniques none,shadow-map:size=256 --light 0 --frames 3 --size 96x72";
+    let arguments: Vec<&str> = arguments.split(' ').collect();
+    let json = output(Path::new("."), &[&arguments[..], &["--json"]].concat());
+    let report: Value = serde_json::from_str(&json).expect("JSON");
+    let results = report["scenes"][0]["lights"][0]["results"].as_array().expect("results");
+    let names: Vec<_> = results.iter().map(|r| r["technique"].as_str().expect("a name")).collect();
+    assert_eq!(names, ["floor", "bare-minimum", "bare-minimum", "none", "shadow-map"]);
+    assert!(results.iter().all(|r| r["cost"]["frame_ms"]["median"].as_f64().is_some_and(|ms| ms > 0.0)), "{json}");
+    let csv = output(Path::new("."), &[&arguments[..], &["--csv"]].concat());
+    assert_eq!(csv.lines().count(), 1 + names.len());
+}
+
+/// The scene of the stored reference below: a box over a plane.
+const SCENE: &str = "\
+[camera]
+eye = [0, 3, 6]
+target = [0, 0, 0]
+fov_y = 45
+
+[[model]]
+primitive = \"plane\"
+size = [8, 8]
+
+[[model]]
+primitive = \"box\"
+size = [1, 1, 1]
+translate = [0, 1, 0]
+
+[[light]]
+kind = \"point\"
+position = [1, 5, 1]
+";
+
+/// A stored reference made by the reference itself, and changed by `change`, scored against `shadow-map`.
+fn mae_against(change: impl Fn(f32) -> f32) -> f64 {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    fs::write(path("s.scene.toml"), SCENE).expect("a scene");
+    let render = |aov: &str, technique: &str, name: &str| {
+        let size = ["--size", "128x96", "--aov", aov, "--technique", technique, "-o", name];
+        output(folder.path(), &[&["render", "s.scene.toml"][..], &size].concat());
+        load_grey(&path(name)).expect("a grey picture")
+    };
+    let mask = render("scored", "none", "mask.png").map(|v| if *v > 0.5 { 255u8 } else { 0 });
+    let visibility = render("visibility", "ray-traced", "visibility.exr");
+    let depth = render("depth", "ray-traced", "depth.exr");
+    fs::create_dir(path("stored")).expect("a folder");
+    save_grey16(&path("stored/s.light0.visibility.png"), &visibility.map(|v| change(*v))).expect("visibility");
+    save_png(&path("stored/s.light0.mask.png"), &mask).expect("mask");
+    fs::write(path("stored/s.geometry.npz"), geometry(&depth)).expect("geometry");
+
+    let arguments =
+        ["compare", "s.scene.toml", "--techniques", "shadow-map", "--reference", "stored", "-o", "out", "--json"];
+    let report: Value = serde_json::from_str(&output(folder.path(), &arguments)).expect("JSON");
+    let light = &report["scenes"][0]["lights"][0];
+    assert_eq!((&report["scenes"][0]["width"], &light["reference"]["samples"]), (&128.into(), &Value::Null));
+    light["results"][0]["scores"]["mae"].as_f64().expect("a score")
+}
+
+/// `geometry.npz` of one model, uncompressed.
+fn geometry(depth: &Image<f32>) -> Vec<u8> {
+    let size = format!("({}, {}", depth.height, depth.width);
+    let floats = |values: Vec<f32>| values.iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<u8>>();
+    let doubles = |values: &[f64]| values.iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<u8>>();
+    let arrays = [
+        ("depth", "<f4", format!("{size})"), floats(depth.data.clone())),
+        ("normal", "<f4", format!("{size}, 3)"), floats(vec![0.0; 3 * depth.data.len()])),
+        ("model", "<i2", format!("{size})"), vec![0; 2 * depth.data.len()]),
+        ("eye", "<f8", "(3,)".into(), doubles(&[0.0, 3.0, 6.0])),
+        ("forward", "<f8", "(3,)".into(), doubles(&[0.0, 0.0, -1.0])),
+        ("right", "<f8", "(3,)".into(), doubles(&[1.0, 0.0, 0.0])),
+        ("up", "<f8", "(3,)".into(), doubles(&[0.0, 1.0, 0.0])),
+        ("tan_half_fov_y", "<f8", "()".into(), doubles(&[0.5])),
+    ];
+    let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    for (name, kind, shape, bytes) in arrays {
+        let mut head = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
+        while (head.len() + 11) % 64 != 0 {
+            head.push(' ');
+        }
+        head.push('\n');
+        archive.start_file(format!("{name}.npy"), zip::write::SimpleFileOptions::default()).expect("a file");
+        let length = (head.len() as u16).to_le_bytes();
+        let all = [&b"\x93NUMPY\x01\x00"[..], &length, head.as_bytes(), &bytes].concat();
+        std::io::Write::write_all(&mut archive, &all).expect("bytes");
+    }
+    archive.finish().expect("an archive").into_inner()
+}
+
+#[test]
+fn a_changed_reference_is_noticed() {
+    let (right, wrong) = (mae_against(|v| v), mae_against(|v| v * 0.75));
+    assert!(right < 0.005, "shadow-map is off by {right} from its own scene");
+    assert!(wrong > 0.15, "a quarter less light changed the error only to {wrong}");
+}
+
+#[test]
+fn a_light_that_a_technique_cannot_do_is_an_error_of_render() {
+    let Some((technique, kind)) = umbrage::techniques().iter().find_map(|t| {
+        umbrage_core::LightKind::ALL.into_iter().find(|k| !t.lights.contains(*k)).map(|kind| (t.id, kind.name()))
+    }) else {
+        println!("skipped a_light_that_a_technique_cannot_do_is_an_error_of_render: every technique does every light");
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let light = match kind {
+        "line" => "kind = \"line\"\nfrom = [-1, 3, 0]\nto = [1, 3, 0]",
+        "rect" => "kind = \"rect\"\nposition = [0, 3, 0]\ndirection = [0, -1, 0]\nup = [0, 0, 1]\nsize = [1, 1]",
+        "disc" => "kind = \"disc\"\nposition = [0, 3, 0]\ndirection = [0, -1, 0]\nradius = 0.5",
+        "sun" => "kind = \"directional\"\ndirection = [0, -1, 0]\nangle = 1",
+        "directional" => "kind = \"directional\"\ndirection = [0, -1, 0]",
+        "sphere" => "kind = \"sphere\"\nposition = [0, 3, 0]\nradius = 0.5",
+        "ellipsoid" => "kind = \"ellipsoid\"\nposition = [0, 3, 0]\nradii = [0.5, 0.2, 0.2]",
+        "spot" => "kind = \"spot\"\nposition = [0, 3, 0]\ndirection = [0, -1, 0]\ninner_angle = 20\nouter_angle = 30",
+        _ => "kind = \"point\"\nposition = [0, 3, 0]",
+    };
+    let scene = SCENE.split("[[light]]").next().expect("a start").to_string() + "[[light]]\n" + light + "\n";
+    fs::write(folder.path().join("s.scene.toml"), scene).expect("a scene");
+    let refused = umbrage(folder.path(), &["render", "s.scene.toml", "--technique", technique, "-o", "a.png"]);
+    let text = String::from_utf8_lossy(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(2), "{text}");
+    assert!(text.contains(&format!("not for {kind} lights")), "{text}");
+}
