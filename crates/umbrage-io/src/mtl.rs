@@ -4,7 +4,7 @@
 //! with transparent pixels, is an alpha mask at one half. A plain `d` or `Tr` below 1 is noted: shadows are those of
 //! the opaque surface. (Source: Wavefront, "MTL material format", version 4.2.)
 
-use crate::error::{self, Error};
+use crate::error::{self, Error, Place};
 use crate::lines::{self, Line};
 use crate::pictures;
 use glam::Vec3;
@@ -58,11 +58,9 @@ impl Library {
             }
         })?;
         for entry in entries {
-            let at = |e: Error| Error {
-                remedy: e.remedy.or_else(|| Some(format!("it is named by {}:{}", file.display(), entry.line))),
-                ..e
-            };
-            let material = self.material(&entry).map_err(at)?;
+            let material = self.material(&entry).map_err(|e| {
+                Error::new(file, format!("material `{}` names {e}", entry.name)).at(Place::Line(entry.line, None))
+            })?;
             self.by_name.insert(entry.name, self.materials.len());
             self.materials.push(material);
         }

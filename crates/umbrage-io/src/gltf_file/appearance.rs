@@ -15,8 +15,11 @@ use glam::{Vec3, Vec4};
 use gltf::Document;
 use gltf::material::AlphaMode;
 use std::collections::HashMap;
-use std::path::PathBuf;
+use std::path::Path;
 use umbrage_core::{Material, Texture};
+
+/// What stands for the name of a picture inside the file.
+const EMBEDDED: &str = "its data";
 
 /// Reads materials and pictures when they are first used.
 pub(super) struct Appearance<'a> {
@@ -112,17 +115,17 @@ impl<'a> Appearance<'a> {
             (Some(view), _) => {
                 let bytes = buffers::view(self.buffers, &view)
                     .ok_or_else(|| file.error(&part, "does not lie within its buffer"))?;
-                pictures::texture_from_bytes(&PathBuf::from(&part), bytes)
+                pictures::texture_from_bytes(Path::new(EMBEDDED), bytes)
             }
             (None, Some(uri)) => {
                 let bytes = buffers::resolve(file, &part, uri)?;
                 let data = uri.starts_with("data:");
-                let name = if data { PathBuf::from(&part) } else { buffers::resolve_path(file, uri) };
+                let name = if data { EMBEDDED.into() } else { buffers::resolve_path(file, uri) };
                 pictures::texture_from_bytes(&name, &bytes)
             }
             (None, None) => return Err(file.error(part, "names neither a file nor a buffer view")),
         };
-        let texture = read.map_err(|e| file.error(&part, e.what).remedy(e.remedy.unwrap_or_default()))?;
+        let texture = read.map_err(|e| file.error(&part, e))?;
         self.textures.push(texture);
         self.texture_of.insert(index, self.textures.len() - 1);
         Ok(self.textures.len() - 1)
