@@ -71,7 +71,8 @@ impl Tracer {
         }
         // The centre is taken off the translation first, where nothing is lost.
         let offset = instance.world_from_mesh.translation - self.center;
-        let place = |i: u32| mesh.positions.get(i as usize).map(|p| instance.world_from_mesh.matrix3 * p.as_dvec3() + offset);
+        let place =
+            |i: u32| mesh.positions.get(i as usize).map(|p| instance.world_from_mesh.matrix3 * p.as_dvec3() + offset);
         for indices in mesh.triangles() {
             let [Some(a), Some(b), Some(c)] = indices.map(place) else { continue };
             let Some(mut triangle) = Triangle::new([a, b, c], self.instance_of.len() as u32, Triangle::OPAQUE) else {

@@ -79,11 +79,8 @@ impl SeenTriangle {
         let slope = direction.dot(self.normal);
         // height / slope without the division; all is false for a ray along the plane.
         let (near, far) = (t_min * slope, t_max * slope);
-        let within = if slope > 0.0 {
-            near < self.height && self.height < far
-        } else {
-            near > self.height && self.height > far
-        };
+        let within =
+            if slope > 0.0 { near < self.height && self.height < far } else { near > self.height && self.height > far };
         within && {
             let [u, v, w] = self.sides.map(|s| s.dot(direction));
             (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0)

@@ -1,0 +1,7 @@
+//! The tracer as a whole, from outside.
+
+mod closed_forms;
+mod references;
+mod scales;
+mod scenes;
+mod visibility;
