@@ -1,8 +1,6 @@
 //! What `list` and `info` print.
 
-mod common;
-
-use common::output;
+use crate::common::output;
 use serde_json::Value;
 use std::{
     io::Read,

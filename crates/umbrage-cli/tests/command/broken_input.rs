@@ -1,8 +1,6 @@
 //! Broken input gives one clear line and exit code 2; nothing is written and nothing panics.
 
-mod common;
-
-use common::{files, umbrage};
+use crate::common::{files, umbrage};
 use std::fs;
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -69,12 +67,12 @@ fn values_out_of_range_name_the_range() {
 fn broken_scene_files_name_file_line_and_key() {
     let with = |from: &str, to: &str| SCENE.replace(from, to).into_bytes();
     let scene = |bytes: Vec<u8>, parts: &[&str]| refused(&[("s.scene.toml", &bytes)], "info s.scene.toml", parts);
-    scene(with("fov_y", "fov"), &["s.scene.toml", "2", "fov"]);
+    scene(with("fov_y", "fov"), &["s.scene.toml:4:", "camera", "`fov_y`"]);
     scene(with("\"point\"", "\"pont\""), &["s.scene.toml", "pont", "point"]);
     scene(with("[0, 0, 0]", "[0, 1, 5]"), &["s.scene.toml", "target"]);
     scene(with("[1, 3, 1]", "[1, nan, 1]"), &["s.scene.toml", "position"]);
     scene(with("primitive = \"plane\"", "path = \"gone.obj\""), &["gone.obj"]);
-    scene(with("[camera]", "[camera"), &["s.scene.toml", "1"]);
+    scene(with("[camera]", "[camera"), &["s.scene.toml:1:"]);
 }
 
 #[test]

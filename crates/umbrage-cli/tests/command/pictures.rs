@@ -1,9 +1,7 @@
 //! What `render`, `compare` and `bench` make. They need a graphics adapter: where there is none they fail, and the
 //! message says how to get one.
 
-mod common;
-
-use common::{files, output, umbrage};
+use crate::common::{files, output, umbrage};
 use serde_json::Value;
 use std::{fs, path::Path};
 use umbrage_core::Image;
