@@ -11,6 +11,7 @@ mod error;
 mod flip;
 mod heat;
 mod interior;
+mod reach;
 mod score;
 mod ssim;
 
@@ -19,4 +20,5 @@ pub use discontinuity::discontinuities;
 pub use error::Error;
 pub use heat::heat;
 pub use interior::{REACH_PIXELS, interior};
+pub use reach::map_reach;
 pub use score::{Comparison, Scores, TOLERANCE, score};
