@@ -16,7 +16,8 @@ pub fn run() -> Result<()> {
     let scenes = ["primitives", "contact", "lantern", "atrium:0.25", "city"];
     let mut arguments = vec!["compare"];
     arguments.extend(scenes);
-    arguments.extend(["--techniques", "all", "--samples", "256", "--size", "640x480", "-o", FOLDER]);
+    let techniques = "all,shadow-map:light-samples=64";
+    arguments.extend(["--techniques", techniques, "--samples", "256", "--size", "640x480", "-o", FOLDER]);
     shell::run(shell::umbrage(Profile::Release, &arguments))?;
     println!("\n{:.0} s. Open {FOLDER}/index.html in a browser.", start.elapsed().as_secs_f64());
     Ok(())

@@ -23,12 +23,17 @@ pub fn run(profile: Profile) -> Result<()> {
     Ok(())
 }
 
-/// Names of the adapters that `umbrage` sees; `None` where there is none.
+/// Backends that every technique runs on; OpenGL is a last resort that lacks what some need.
+const USABLE: [&str; 3] = ["Vulkan", "Metal", "Dx12"];
+
+/// Names of the usable adapters that `umbrage` sees; `None` where there is none.
 fn adapters(profile: Profile) -> Result<Option<String>> {
     let json: Value = serde_json::from_str(&shell::output(shell::umbrage(profile, &["list", "--json"]))?)
         .context("`umbrage list --json` printed no JSON")?;
     let list = json["adapters"].as_array().context("`umbrage list --json` has no list of adapters")?;
-    let name = |a: &Value| format!("{} ({})", a["name"].as_str().unwrap_or("?"), a["kind"].as_str().unwrap_or("?"));
+    let usable = |a: &&Value| a["backend"].as_str().is_some_and(|backend| USABLE.contains(&backend));
+    let list: Vec<&Value> = list.iter().filter(usable).collect();
+    let name = |a: &&Value| format!("{} ({})", a["name"].as_str().unwrap_or("?"), a["kind"].as_str().unwrap_or("?"));
     Ok((!list.is_empty()).then(|| list.iter().map(name).collect::<Vec<_>>().join(", ")))
 }
 

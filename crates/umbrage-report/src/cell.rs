@@ -82,27 +82,33 @@ impl Cell<'_> {
         Ok(())
     }
 
-    /// The record of the truth itself, with the scene shaded under it.
+    /// The record of the truth itself, with the scene shaded under it. Where the GPU fails, that picture is left out:
+    /// the techniques' own records say why.
     pub(crate) fn reference(&self, place: &str, pictures: &mut Pictures) -> Result<ReferenceRecord, Error> {
         let Truth { visibility, mask, hard, source, samples, seconds } = self.truth;
-        let mut renderer = self.renderer(Box::new(Given::new(self.gpu, visibility)?))?;
-        renderer.frame(&self.source.scene.camera)?;
-        let mut shown = BTreeMap::from([
-            ("color", pictures.add(&format!("{place}-reference-color"), &opaque(&renderer.color()?))?),
-            ("visibility", pictures.add(&format!("{place}-reference-visibility"), &grey(visibility))?),
-        ]);
+        let mut shown = BTreeMap::new();
+        if let Ok(color) = self.shade(visibility) {
+            shown.insert("color", pictures.add(&format!("{place}-reference-color"), &opaque(&color))?);
+        }
+        shown.insert("visibility", pictures.add(&format!("{place}-reference-visibility"), &grey(visibility))?);
         if let Some(hard) = hard {
             shown.insert("hard", pictures.add(&format!("{place}-reference-hard"), &grey(hard))?);
         }
-        let hard_mae = hard.as_ref().map(|hard| self.score(hard, None)).transpose()?.map(|s| s.mae);
         Ok(ReferenceRecord {
             source: source.clone(),
             samples: *samples,
             seconds: *seconds,
             scored_pixels: mask.data.iter().filter(|m| **m).count(),
-            hard_mae,
+            hard_mae: hard.as_ref().and_then(|hard| self.score(hard, None).ok()).map(|s| s.mae),
             pictures: shown,
         })
+    }
+
+    /// The scene in colour under visibility that is known.
+    fn shade(&self, visibility: &Image<f32>) -> Result<Image<[u8; 4]>, Error> {
+        let mut renderer = self.renderer(Box::new(Given::new(self.gpu, visibility)?))?;
+        renderer.frame(&self.source.scene.camera)?;
+        Ok(renderer.color()?)
     }
 
     /// Errors of a visibility picture of this light.

@@ -236,7 +236,7 @@ mod tests {
         };
         let Picture::Share(picture) = shot.take(&gpu, &Silent).unwrap() else { panic!("no picture of shares") };
         assert_eq!(picture.size(), (32, 24));
-        assert!(picture.data.iter().any(|v| *v == 1.0) && picture.data.contains(&0.0));
+        assert!(picture.data.contains(&1.0) && picture.data.contains(&0.0));
         let unknown = Shot { aov: Aov::Inside("colour".into()), ..shot }.take(&gpu, &Silent).unwrap_err().to_string();
         assert!(unknown.contains("did you mean `color`"), "{unknown}");
     }

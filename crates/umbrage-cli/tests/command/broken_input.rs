@@ -71,7 +71,7 @@ fn broken_scene_files_name_file_line_and_key() {
     scene(with("\"point\"", "\"pont\""), &["s.scene.toml", "pont", "point"]);
     scene(with("[0, 0, 0]", "[0, 1, 5]"), &["s.scene.toml", "target"]);
     scene(with("[1, 3, 1]", "[1, nan, 1]"), &["s.scene.toml", "position"]);
-    scene(with("primitive = \"plane\"", "path = \"gone.obj\""), &["gone.obj"]);
+    scene(with("primitive = \"plane\"\nsize = [4, 4]", "path = \"gone.obj\""), &["gone.obj"]);
     scene(with("[camera]", "[camera"), &["s.scene.toml:1:"]);
 }
 
