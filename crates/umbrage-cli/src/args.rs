@@ -1,9 +1,8 @@
 //! Arguments that several subcommands take, and how they are read.
 
-use anyhow::{Result, bail};
+use anyhow::Result;
 use clap::Args;
 use umbrage::Gpu;
-use umbrage_core::Scene;
 use umbrage_report::Source;
 
 /// Which adapter to use.
@@ -57,23 +56,12 @@ pub fn triple(text: &str) -> Result<(String, String, String), String> {
     Ok((technique.into(), name.into(), value))
 }
 
-/// The lights to work on: the one asked for, or all of the scene.
-pub fn lights(scene: &Scene, asked: Option<usize>) -> Result<Vec<usize>> {
-    let count = scene.lights.len();
-    match asked {
-        None => Ok((0..count).collect()),
-        Some(light) if light < count => Ok(vec![light]),
-        Some(light) if count == 1 => bail!("{}: there is no light {light}; its one light is 0", scene.name),
-        Some(light) => bail!("{}: there is no light {light}; its lights are 0 to {}", scene.name, count - 1),
-    }
-}
-
 /// Opens scenes, each with the lights to work on; what the loader has to say goes to the standard error.
 pub fn scenes(asked: &[String], light: Option<usize>) -> Result<Vec<(Source, Vec<usize>)>> {
     let mut scenes = Vec::new();
     for name in asked {
         let source = Source::open(name)?;
-        let lights = lights(&source.scene, light)?;
+        let lights = source.lights(light)?;
         source.notes.iter().for_each(|note| eprintln!("note: {name}: {note}"));
         scenes.push((source, lights));
     }

@@ -1,6 +1,5 @@
 //! `umbrage info`: what is in a scene, and what is wrong with it.
 
-use crate::args::lights;
 use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
@@ -28,7 +27,6 @@ impl Info {
     /// Prints the facts.
     pub fn run(self) -> Result<()> {
         let source = Source::open(&self.scene)?;
-        lights(&source.scene, None)?;
         let report = check_scene(&source.scene);
         let text = if self.json { as_json(&source, &report) } else { as_text(&source, &report) };
         stdout().write_all(text.as_bytes())?;

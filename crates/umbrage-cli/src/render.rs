@@ -62,16 +62,16 @@ impl Render {
         check_file(&self.output)?;
         let method = self.method()?;
         let source = Source::open(&self.scene)?;
-        let lights = args::lights(&source.scene, self.light)?;
+        let lights = source.lights(self.light)?;
         let of_one_light = matches!(aov, Aov::Visibility | Aov::Scored | Aov::Inside(_));
         if of_one_light && lights.len() > 1 {
             let last = lights.len() - 1;
             bail!("{}: `{}` is of one light; say which with --light, 0 to {last}", source.scene.name, self.aov);
         }
         source.notes.iter().for_each(|note| eprintln!("note: {note}"));
-        let gpu = self.adapter.gpu()?;
         let shot = Shot { source, lights, method, size: (self.size.width, self.size.height), aov };
-        let picture = shot.take(&gpu, &Bars::default())?;
+        let gpu = if shot.needs_gpu() { Some(self.adapter.gpu()?) } else { None };
+        let picture = shot.take(gpu.as_ref(), &Bars::default())?;
         picture.save(&self.output)?;
         Ok(())
     }

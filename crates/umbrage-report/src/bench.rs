@@ -141,6 +141,9 @@ impl Bench {
     pub fn run(&self, gpu: &Gpu, progress: &dyn Progress) -> Result<BenchReport, Error> {
         gpu.check_size("a picture", self.size.0, self.size.1)?;
         check_choices(&self.choices, gpu)?;
+        for (source, lights) in &self.scenes {
+            lights.iter().try_for_each(|&light| source.light(light).map(|_| ()))?;
+        }
         let mut scenes = Vec::new();
         for (source, lights) in &self.scenes {
             let scene = &source.scene;

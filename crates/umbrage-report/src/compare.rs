@@ -67,6 +67,7 @@ impl Compare {
         check_choices(&self.choices, gpu)?;
         for (source, lights) in &self.scenes {
             for &light in lights {
+                source.light(light)?;
                 self.size_of(source, light)?;
             }
         }

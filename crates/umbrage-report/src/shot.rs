@@ -6,8 +6,9 @@ use crate::{
 };
 use std::path::Path;
 use umbrage::{Gpu, LightPass, Renderer, Technique};
-use umbrage_core::Image;
+use umbrage_core::{Image, Light};
 use umbrage_io::pictures;
+use umbrage_reference::Truth;
 
 /// What a picture shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -81,40 +82,79 @@ pub enum Picture {
     Normal(Image<[f32; 3]>),
 }
 
+/// Longest side of a picture that is made without a GPU, pixels: that of most GPUs.
+const LONGEST_SIDE: u32 = 16_384;
+
 impl Shot {
-    /// Takes it.
+    /// True where the picture is made on the GPU; the ray tracer alone needs none.
+    pub fn needs_gpu(&self) -> bool {
+        match self.method {
+            Method::Technique(_) => self.aov != Aov::Scored,
+            Method::RayTraced { .. } => self.aov == Aov::Color,
+        }
+    }
+
+    /// Takes it. `gpu` may be absent where [`Shot::needs_gpu`] is false.
     ///
     /// # Errors
     /// Lights and settings that the technique can't do, sizes beyond the adapter's limit, unknown views.
-    pub fn take(&self, gpu: &Gpu, progress: &dyn Progress) -> Result<Picture, Error> {
-        gpu.check_size("the picture", self.size.0, self.size.1)?;
-        let scene = &self.source.scene;
-        match (&self.aov, &self.method) {
-            (Aov::Scored, _) => {
-                let tracing = self.tracing();
-                let truth = tracing.visibility(self.light()?, &scene.textures, 1, progress);
-                Ok(Picture::Mask(truth.scored))
-            }
-            (Aov::Visibility, Method::RayTraced { samples }) => {
-                Ok(Picture::Share(self.traced(*samples, progress)?.remove(0)))
-            }
-            (Aov::Depth, Method::RayTraced { .. }) => Ok(Picture::Depth(self.tracing().geometry.depth)),
-            (Aov::Normal, Method::RayTraced { .. }) => {
-                Ok(Picture::Normal(self.tracing().geometry.normal.map(|n| n.to_array())))
-            }
-            (Aov::Inside(name), Method::RayTraced { .. }) => Err(unknown_view(name, &[])),
-            (_, Method::RayTraced { samples }) => {
-                let truths = self.traced(*samples, progress)?;
-                let given = |visibility| Ok(Box::new(Given::new(gpu, visibility)?) as Box<dyn Technique>);
-                self.render(gpu, truths.iter().map(given).collect::<Result<_, Error>>()?)
-            }
-            (_, Method::Technique(choice)) => {
-                for &light in &self.lights {
-                    choice.supports(scene.lights[light].shape.kind())?;
+    pub fn take(&self, gpu: Option<&Gpu>, progress: &dyn Progress) -> Result<Picture, Error> {
+        for &light in &self.lights {
+            self.source.light(light)?;
+        }
+        let (width, height) = self.size;
+        match gpu {
+            Some(gpu) => gpu.check_size("the picture", width, height)?,
+            None => {
+                let wrong = [width, height].into_iter().find(|side| !(1..=LONGEST_SIDE).contains(side));
+                if let Some(size) = wrong.map(u64::from) {
+                    let limit = u64::from(LONGEST_SIDE);
+                    return Err(umbrage::Error::Size { what: "the picture".into(), size, limit }.into());
                 }
-                self.render(gpu, self.lights.iter().map(|_| choice.make(gpu)).collect::<Result<_, _>>()?)
             }
         }
+        match gpu {
+            _ if !self.needs_gpu() => self.take_on_cpu(progress),
+            Some(gpu) => self.take_on_gpu(gpu, progress),
+            None => Err(umbrage::Error::NoAdapter { found: String::new() }.into()),
+        }
+    }
+
+    fn take_on_cpu(&self, progress: &dyn Progress) -> Result<Picture, Error> {
+        let samples = match self.method {
+            Method::RayTraced { samples } => samples,
+            Method::Technique(_) => 1,
+        };
+        let tracing = Tracing::new(&self.source, self.size.0, self.size.1);
+        let truth = |samples| Ok::<_, Error>(self.trace(&tracing, self.first_light()?, samples, progress));
+        match &self.aov {
+            Aov::Depth => Ok(Picture::Depth(tracing.geometry.depth)),
+            Aov::Normal => Ok(Picture::Normal(tracing.geometry.normal.map(|n| n.to_array()))),
+            Aov::Scored => Ok(Picture::Mask(truth(1)?.scored)),
+            Aov::Visibility => Ok(Picture::Share(truth(samples)?.visibility)),
+            Aov::Color => Err(umbrage::Error::NoAdapter { found: String::new() }.into()),
+            Aov::Inside(name) => Err(unknown_view(name, &[])),
+        }
+    }
+
+    fn take_on_gpu(&self, gpu: &Gpu, progress: &dyn Progress) -> Result<Picture, Error> {
+        let mut techniques: Vec<Box<dyn Technique>> = Vec::new();
+        match &self.method {
+            Method::RayTraced { samples } => {
+                let tracing = Tracing::new(&self.source, self.size.0, self.size.1);
+                for &light in &self.lights {
+                    let truth = self.trace(&tracing, self.source.light(light)?, *samples, progress);
+                    techniques.push(Box::new(Given::new(gpu, &truth.visibility)?));
+                }
+            }
+            Method::Technique(choice) => {
+                for &light in &self.lights {
+                    choice.supports(self.source.light(light)?.shape.kind())?;
+                    techniques.push(choice.make(gpu)?);
+                }
+            }
+        }
+        self.render(gpu, techniques)
     }
 
     /// A frame with one technique for each light.
@@ -137,28 +177,17 @@ impl Shot {
         })
     }
 
-    fn light(&self) -> Result<&umbrage_core::Light, Error> {
-        let light = self.lights.first().and_then(|&light| self.source.scene.lights.get(light));
-        light.ok_or_else(|| Error::scene(&self.source.asked, "there is no light in it; add one"))
+    fn first_light(&self) -> Result<&Light, Error> {
+        self.source.light(self.lights.first().copied().unwrap_or_default())
     }
 
-    fn tracing(&self) -> Tracing {
-        Tracing::new(&self.source, self.size.0, self.size.1)
-    }
-
-    /// The truth about every light.
-    fn traced(&self, samples: u32, progress: &dyn Progress) -> Result<Vec<Image<f32>>, Error> {
-        self.light()?;
-        let scene = &self.source.scene;
-        let tracing = self.tracing();
+    fn trace(&self, tracing: &Tracing, light: &Light, samples: u32, progress: &dyn Progress) -> Truth {
         let pixels = u64::from(self.size.0) * u64::from(self.size.1);
-        let trace = |&light: &usize| {
-            progress.begin(&format!("{}, light {light}: tracing", scene.name), pixels);
-            let truth = tracing.visibility(&scene.lights[light], &scene.textures, samples, progress);
-            progress.end();
-            truth.visibility
-        };
-        Ok(self.lights.iter().map(trace).collect())
+        let scene = &self.source.scene;
+        progress.begin(&format!("{}, {} light: tracing", scene.name, light.shape.kind().name()), pixels);
+        let truth = tracing.visibility(light, &scene.textures, samples, progress);
+        progress.end();
+        truth
     }
 }
 
@@ -223,10 +252,6 @@ mod tests {
     #[test]
     fn a_ray_traced_picture_of_a_light_is_between_umbra_and_full_light() {
         let source = Source::open("contact").unwrap();
-        let gpu = match Gpu::request(None) {
-            Ok(gpu) => gpu,
-            Err(error) => panic!("{error}"),
-        };
         let shot = Shot {
             source,
             lights: vec![0],
@@ -234,10 +259,10 @@ mod tests {
             size: (32, 24),
             aov: Aov::Visibility,
         };
-        let Picture::Share(picture) = shot.take(&gpu, &Silent).unwrap() else { panic!("no picture of shares") };
+        let Picture::Share(picture) = shot.take(None, &Silent).unwrap() else { panic!("no picture of shares") };
         assert_eq!(picture.size(), (32, 24));
         assert!(picture.data.contains(&1.0) && picture.data.contains(&0.0));
-        let unknown = Shot { aov: Aov::Inside("colour".into()), ..shot }.take(&gpu, &Silent).unwrap_err().to_string();
+        let unknown = Shot { aov: Aov::Inside("colour".into()), ..shot }.take(None, &Silent).unwrap_err().to_string();
         assert!(unknown.contains("did you mean `color`"), "{unknown}");
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use std::path::Path;
-use umbrage_core::{Scene, scenes};
+use umbrage_core::{Light, Scene, scenes};
 
 /// A scene and what there is to say about it.
 #[derive(Clone, Debug)]
@@ -34,6 +34,34 @@ impl Source {
             (built_in(asked)?, Vec::new())
         };
         Ok(Self { asked: asked.into(), scene, notes })
+    }
+
+    /// The light of this number.
+    ///
+    /// # Errors
+    /// A number that the scene does not have.
+    pub fn light(&self, number: usize) -> Result<&Light, Error> {
+        self.scene.lights.get(number).ok_or_else(|| {
+            Error::scene(
+                &self.asked,
+                match self.scene.lights.len() {
+                    0 => "there is no light in it; add one".to_string(),
+                    1 => format!("there is no light {number}; its one light is 0"),
+                    n => format!("there is no light {number}; its lights are 0 to {}", n - 1),
+                },
+            )
+        })
+    }
+
+    /// The numbers of the lights to work on: the one asked for, or all.
+    ///
+    /// # Errors
+    /// A number that the scene does not have.
+    pub fn lights(&self, asked: Option<usize>) -> Result<Vec<usize>, Error> {
+        match asked {
+            Some(light) => self.light(light).map(|_| vec![light]),
+            None => self.light(0).map(|_| (0..self.scene.lights.len()).collect()),
+        }
     }
 
     /// A name for files: that of the scene file without its extensions, or of the built-in scene.

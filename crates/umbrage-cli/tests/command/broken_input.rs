@@ -1,6 +1,6 @@
 //! Broken input gives one clear line and exit code 2; nothing is written and nothing panics.
 
-use crate::common::{files, umbrage};
+use crate::common::{command, files, umbrage};
 use std::fs;
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -103,4 +103,24 @@ fn an_adapter_that_is_not_there_is_named() {
 fn a_size_beyond_the_adapter_is_refused_with_its_limit() {
     refused(&[], "render contact --size 999999x4 -o a.png", &["999999", "the adapter allows 1 to"]);
     refused(&[], "bench contact --size 999999x4", &["999999", "the adapter allows 1 to"]);
+}
+
+#[test]
+fn without_an_adapter_the_remedy_is_named_and_the_ray_tracer_still_works() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |technique: &str| {
+        let arguments = ["render", "contact", "--light", "0", "--aov", "visibility", "--size", "32x24", "-o", "a.png"];
+        // A driver that does not exist, and no other backend to fall back to.
+        command(folder.path(), &[&arguments[..], &["--technique", technique]].concat())
+            .envs([("VK_DRIVER_FILES", "/none"), ("VK_ICD_FILENAMES", "/none"), ("WGPU_BACKEND", "vulkan")])
+            .output()
+            .expect("the command starts")
+    };
+    let refused = run("shadow-map");
+    let text = String::from_utf8_lossy(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(2), "{text}");
+    assert!(text.contains("no usable graphics adapter") && text.contains("cargo xtask setup"), "{text}");
+    assert!(files(folder.path()).is_empty(), "something was written");
+    let traced = run("ray-traced");
+    assert!(traced.status.success(), "{}", String::from_utf8_lossy(&traced.stderr));
 }

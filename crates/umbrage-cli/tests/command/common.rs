@@ -7,13 +7,15 @@ use std::{
 };
 
 /// The command, quiet about what is not its own.
+pub fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_umbrage"));
+    command.args(arguments).current_dir(folder).env("NODEVICE_SELECT", "1");
+    command
+}
+
+/// Runs it to its end.
 pub fn umbrage(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_umbrage"))
-        .args(arguments)
-        .current_dir(folder)
-        .env("NODEVICE_SELECT", "1")
-        .output()
-        .expect("the command starts")
+    command(folder, arguments).output().expect("the command starts")
 }
 
 /// What it printed, where it had to succeed.
