@@ -33,6 +33,9 @@ pub struct Compare {
     /// Parameter of a technique wherever it is in the list
     #[arg(long, value_name = "TECHNIQUE.NAME=VALUE", value_parser = args::triple)]
     set: Vec<(String, String, String)>,
+    /// Average every hard technique of the list over so many points of the light
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    light_samples: Option<u32>,
     /// Only this light of each scene, from 0 [default: all]
     #[arg(long, value_name = "N")]
     light: Option<usize>,
@@ -62,6 +65,7 @@ impl Compare {
     /// Compares, prints and writes.
     pub fn run(self) -> Result<()> {
         let choices = Choice::list(&self.techniques, &self.set)?;
+        let choices = choices.into_iter().map(|c| c.or_light_samples(self.light_samples)).collect();
         let scenes = args::scenes(&self.scenes, self.light)?;
         let gpu = self.adapter.gpu()?;
         let folder = Folder::create(&self.output)?;

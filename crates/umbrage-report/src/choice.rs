@@ -99,6 +99,14 @@ impl Choice {
         Ok(choices)
     }
 
+    /// Averages a hard technique over `samples` points of the light, unless it says itself over how many.
+    pub fn or_light_samples(mut self, samples: Option<u32>) -> Self {
+        if self.info.hard {
+            self.light_samples = self.light_samples.or(samples);
+        }
+        self
+    }
+
     /// The parameters that are not at their default.
     pub fn changed(&self) -> &BTreeMap<String, String> {
         &self.changed
@@ -171,6 +179,14 @@ mod tests {
         let unused = [("pcf".into(), "size".into(), "512".into())];
         let list = Choice::list(&["none".into()], &unused).map(|l| l.len()).unwrap_err().to_string();
         assert!(list.contains("not among"), "{list}");
+    }
+
+    #[test]
+    fn light_samples_for_all_go_to_hard_techniques_that_have_none() {
+        let label = |name: &str| Choice::parse(name, &[]).unwrap().or_light_samples(Some(9)).label();
+        assert_eq!(label("shadow-map"), "shadow-map:light-samples=9");
+        assert_eq!(label("shadow-map:light-samples=4"), "shadow-map:light-samples=4");
+        assert_eq!(label("none"), "none");
     }
 
     #[test]
