@@ -52,8 +52,10 @@ impl Triangle {
     }
 
     /// What all rays from one point have in common.
+    #[inline]
     pub fn seen_from(&self, origin: DVec3) -> SeenTriangle {
-        let [a, b, c] = self.corners.map(|p| p - origin);
+        let [a, b, c] = self.corners;
+        let (a, b, c) = (a - origin, b - origin, c - origin);
         SeenTriangle { normal: self.normal, height: a.dot(self.normal), sides: [c.cross(b), a.cross(c), b.cross(a)] }
     }
 }
@@ -82,7 +84,8 @@ impl SeenTriangle {
         let within =
             if slope > 0.0 { near < self.height && self.height < far } else { near > self.height && self.height > far };
         within && {
-            let [u, v, w] = self.sides.map(|s| s.dot(direction));
+            let [a, b, c] = self.sides;
+            let (u, v, w) = (a.dot(direction), b.dot(direction), c.dot(direction));
             (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0)
         }
     }

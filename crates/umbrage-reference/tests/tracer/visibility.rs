@@ -27,7 +27,7 @@ fn mean(truth: &Truth) -> f64 {
 /// Leaves with holes over the still life.
 fn with_leaves() -> Scene {
     let mut scene = still_life();
-    let checker = |i: u32| [255, 255, 255, if (i % 8 / 2 + i / 16) % 2 == 0 { 255 } else { 0 }];
+    let checker = |i: u32| [255, 255, 255, if (i % 8 / 2 + i / 16).is_multiple_of(2) { 255 } else { 0 }];
     scene.textures.push(Texture { name: "leaf".into(), width: 8, height: 8, rgba: (0..64).map(checker).collect() });
     let material = Material { texture: Some(0), alpha_cutoff: Some(0.5), ..Material::default() };
     let material = Material { base_color: Vec4::ONE, ..material };
