@@ -35,6 +35,7 @@ mod gpu;
 mod light_samples;
 mod params;
 mod passes;
+mod read;
 mod receivers;
 mod renderer;
 mod shader;

@@ -1,6 +1,7 @@
 //! The visibility buffer: the one thing every technique writes.
 
-use crate::{error::Error, gpu::Gpu};
+use crate::{error::Error, gpu::Gpu, read};
+use umbrage_core::Image;
 
 /// The share of one light that each pixel sees, 0…1, as `R16Float`. PX calls it the LI buffer, SG the V-buffer.
 #[derive(Clone, Debug)]
@@ -56,6 +57,14 @@ impl VisibilityTarget {
             resolve_target: None,
             ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
         })
+    }
+
+    /// The values, read back: for files and tests, since it waits for the GPU.
+    ///
+    /// # Errors
+    /// [`Error::DeviceLost`] and [`Error::Driver`].
+    pub fn read(&self, gpu: &Gpu) -> Result<Image<f32>, Error> {
+        read::one_channel(gpu, &self.texture, 0)
     }
 
     /// Bytes of GPU memory.

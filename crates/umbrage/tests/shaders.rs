@@ -37,7 +37,8 @@ fn difference(host: &HostLayout, module: &naga::Module) -> Option<String> {
     if wgsl != on_host {
         return Some(format!("{}: the host has {on_host:?}, the shader {wgsl:?}", host.name));
     }
-    (host.size != span as usize).then(|| format!("{}: {} bytes on the host, {span} in the shader", host.name, host.size))
+    (host.size != span as usize)
+        .then(|| format!("{}: {} bytes on the host, {span} in the shader", host.name, host.size))
 }
 
 #[test]

@@ -30,8 +30,10 @@ shader_struct! {
         light_eye: [f32; 3],
         size: f32,
         rounding: [f32; 2],
+        per_metre: [f32; 2],
         bias: f32,
         spare: f32,
+        more_spare: [f32; 2],
     }
 }
 
@@ -159,8 +161,9 @@ impl Lookup {
             size: maps.size as f32,
             // Depth 0…1 in single precision; perspective depth keeps its relative precision, parallel depth does not.
             rounding: if perspective { [2e-6, 0.0] } else { [0.0, 1e-6] },
+            per_metre: per_metre(maps),
             bias: self.bias as f32,
-            spare: 0.0,
+            ..MapLookup::default()
         }
     }
 
@@ -210,6 +213,14 @@ impl Lookup {
             ],
         })
     }
+}
+
+/// How stored depth changes per metre along the light: perspective depth is near / distance, so its derivative is
+/// depth² / near; that of parallel depth is constant.
+fn per_metre(maps: &DepthMaps) -> [f32; 2] {
+    let Some(view) = maps.views.first() else { return [0.0; 2] };
+    let depth = view.clip_from_world.row(2);
+    if maps.is_perspective(view) { [(1.0 / depth.w) as f32, 0.0] } else { [0.0, depth.truncate().length() as f32] }
 }
 
 fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {

@@ -1,7 +1,6 @@
 //! The built-in consumer of visibility: a G-buffer, each light added under its visibility, tone mapping.
 
 mod gbuffer;
-mod read;
 mod shading;
 mod tonemap;
 
@@ -10,6 +9,7 @@ use crate::{
     error::Error,
     gpu::Gpu,
     passes::{PassTime, Recorder},
+    read,
     receivers::Receivers,
     shader::Shader,
     technique::{DebugView, Stats, Technique},
@@ -185,7 +185,7 @@ impl Renderer {
     /// [`Error::Scene`] where there is no such pass.
     pub fn visibility(&self, pass: usize) -> Result<Image<f32>, Error> {
         let lit = self.lights.get(pass).ok_or_else(|| Error::Scene(format!("there is no light pass {pass}")))?;
-        read::one_channel(&self.gpu, &lit.visibility.texture, 0)
+        lit.visibility.read(&self.gpu)
     }
 
     /// Depth along the view direction in metres, 0 where nothing is.

@@ -12,9 +12,12 @@ struct MapLookup {
     size: f32,
     // Rounding of stored depth: relative, and absolute.
     rounding: vec2f,
+    // Change of stored depth per metre: times the squared depth, and constant.
+    per_metre: vec2f,
     // Multiplies the automatic bias.
     bias: f32,
     spare: f32,
+    more_spare: vec2f,
 }
 
 struct MapPoint {
@@ -24,6 +27,8 @@ struct MapPoint {
     depth: f32,
     // Change of depth per texel along the receiver's plane.
     slope: vec2f,
+    // How much the depth may be off by rounding.
+    rounding: f32,
     layer: u32,
     is_covered: bool,
 }
@@ -48,7 +53,8 @@ fn face_of_cube(direction: vec3f) -> u32 {
     return select(4u, 5u, direction.z < 0.0);
 }
 
-fn map_point(position: vec3f, normal: vec3f) -> MapPoint {
+// `rounding`: of the position, metres.
+fn map_point(position: vec3f, normal: vec3f, rounding: f32) -> MapPoint {
     var layer = 0u;
     if CUBE {
         layer = face_of_cube(position - map.light_eye);
@@ -61,6 +67,9 @@ fn map_point(position: vec3f, normal: vec3f) -> MapPoint {
     // A plane seen edge-on has no slope to speak of; the largest that helps is one that spans the whole depth.
     let steepness = -1.0 / select(plane.z, 1e-30, abs(plane.z) < 1e-30);
     point.slope = clamp(plane.xy * steepness, vec2f(-1.0), vec2f(1.0));
+    let z = abs(point.depth);
+    let per_metre = map.per_metre.x * z * z + map.per_metre.y;
+    point.rounding = map.rounding.x * z + map.rounding.y + rounding * per_metre;
     point.layer = layer;
     point.is_covered = p.w > 0.0 && all(point.texel >= vec2f(0.0)) && all(point.texel < vec2f(map.size));
     return point;
@@ -69,5 +78,5 @@ fn map_point(position: vec3f, normal: vec3f) -> MapPoint {
 // What comparing has to forgive when the compared surface may be `texels` away from the receiver's own place.
 fn map_bias(point: MapPoint, texels: f32) -> f32 {
     let slope = abs(point.slope.x) + abs(point.slope.y);
-    return map.bias * (texels * slope + map.rounding.x * abs(point.depth) + map.rounding.y);
+    return map.bias * (texels * slope + point.rounding);
 }

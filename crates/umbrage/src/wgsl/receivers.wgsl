@@ -19,20 +19,39 @@ fn position_eye(eye: Eye, pixel: vec2f, depth: f32) -> vec3f {
     return p.xyz / p.w;
 }
 
-// The neighbour along `step` that lies on the same surface: the one whose depth differs less.
-fn along_surface(eye: Eye, pixel: vec2f, depth: f32, step: vec2i) -> vec3f {
+// How far, in metres, a position may be off because the depth buffer rounds: one step of single precision (or of 24 bits)
+// around `depth`. Next to nothing for a reversed projection, a millimetre and more for others.
+fn position_rounding(eye: Eye, pixel: vec2f, depth: f32, position: vec3f) -> f32 {
+    let ndc = pixel * eye.ndc_from_pixel + vec2f(-1.0, 1.0);
+    let m = eye.eye_from_ndc;
+    let w = m[0].w * ndc.x + m[1].w * ndc.y + m[2].w * depth + m[3].w;
+    let relative = 1.2e-7 * (1.0 + depth * abs(m[2].w / w));
+    // A normal taken from neighbouring depths is off by their rounding, too.
+    return relative * (abs(position.x) + abs(position.y) + abs(position.z)) * select(8.0, 1.0, HAS_NORMALS);
+}
+
+// From `here` to the neighbour along `step`, nothing where that is off the picture or shows no surface.
+fn toward(eye: Eye, pixel: vec2f, here: vec3f, step: vec2i) -> vec3f {
     let size = vec2i(textureDimensions(receiver_depth));
-    let at = vec2i(pixel);
-    let before = clamp(at - step, vec2i(0), size - 1);
-    let after = clamp(at + step, vec2i(0), size - 1);
-    let depth_before = textureLoad(receiver_depth, before, 0);
-    let depth_after = textureLoad(receiver_depth, after, 0);
-    let here = position_eye(eye, pixel, depth);
-    let use_after = any(before == at) || (any(after != at) && abs(depth_after - depth) < abs(depth_before - depth));
-    if use_after {
-        return position_eye(eye, vec2f(after) + 0.5, depth_after) - here;
+    let at = vec2i(pixel) + step;
+    if any(at < vec2i(0)) || any(at >= size) {
+        return vec3f(0.0);
     }
-    return here - position_eye(eye, vec2f(before) + 0.5, depth_before);
+    let depth = textureLoad(receiver_depth, at, 0);
+    if depth == eye.background_depth {
+        return vec3f(0.0);
+    }
+    return position_eye(eye, vec2f(at) + 0.5, depth) - here;
+}
+
+// Change of position along `step` on the surface itself: towards the neighbour that is nearer, since the other one may
+// be across an edge.
+fn along_surface(eye: Eye, pixel: vec2f, here: vec3f, step: vec2i) -> vec3f {
+    let after = toward(eye, pixel, here, step);
+    let before = -toward(eye, pixel, here, -step);
+    let a = dot(after, after);
+    let b = dot(before, before);
+    return select(before, after, b == 0.0 || (a > 0.0 && a < b));
 }
 
 // Geometric normal, either side, unit length.
@@ -40,8 +59,9 @@ fn normal_world(eye: Eye, pixel: vec2f, depth: f32) -> vec3f {
     if HAS_NORMALS {
         return textureLoad(receiver_normal, vec2i(pixel), 0).xyz;
     }
-    let across = along_surface(eye, pixel, depth, vec2i(1, 0));
-    let down = along_surface(eye, pixel, depth, vec2i(0, 1));
+    let here = position_eye(eye, pixel, depth);
+    let across = along_surface(eye, pixel, here, vec2i(1, 0));
+    let down = along_surface(eye, pixel, here, vec2i(0, 1));
     let n = cross(across, down);
     let squared = dot(n, n);
     return select(vec3f(0.0), n * inverseSqrt(squared), squared > 0.0);

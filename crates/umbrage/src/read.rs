@@ -5,13 +5,13 @@ use half::f16;
 use umbrage_core::Image;
 
 /// 8-bit colour.
-pub(super) fn rgba8(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[u8; 4]>, Error> {
+pub(crate) fn rgba8(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[u8; 4]>, Error> {
     let bytes = rows(gpu, texture, 0)?;
     Ok(image(texture, bytes.as_chunks::<4>().0.to_vec()))
 }
 
 /// Depth or a single float channel, full or half.
-pub(super) fn one_channel(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Result<Image<f32>, Error> {
+pub(crate) fn one_channel(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Result<Image<f32>, Error> {
     let bytes = rows(gpu, texture, layer)?;
     let data = match texture.format() {
         wgpu::TextureFormat::R16Float => halves(&bytes),
@@ -24,7 +24,7 @@ pub(super) fn one_channel(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Res
 }
 
 /// Four half-float channels.
-pub(super) fn four_channels(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[f32; 4]>, Error> {
+pub(crate) fn four_channels(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[f32; 4]>, Error> {
     let bytes = rows(gpu, texture, 0)?;
     Ok(image(texture, halves(&bytes).as_chunks::<4>().0.to_vec()))
 }

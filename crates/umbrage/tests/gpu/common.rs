@@ -1,0 +1,69 @@
+//! What the tests with a GPU share.
+
+use std::path::PathBuf;
+use umbrage::core::{Image, Scene};
+use umbrage::{Gpu, LightPass, Renderer, find};
+use umbrage_metrics::{Comparison, Scores, discontinuities, map_reach, score};
+use umbrage_reference::{Options, Tracer};
+
+/// The best adapter. Without one these tests fail and say how to get one.
+pub fn gpu() -> Gpu {
+    Gpu::request(None).unwrap_or_else(|e| panic!("this test needs a graphics adapter: {e}"))
+}
+
+/// Pairs for [`umbrage::TechniqueInfo::settings`] from `a=1,b=2`.
+pub fn pairs(set: &str) -> Vec<(String, String)> {
+    let pair = |s: &str| s.split_once('=').map(|(a, b)| (a.to_string(), b.to_string())).expect("name=value");
+    set.split(',').filter(|s| !s.is_empty()).map(pair).collect()
+}
+
+/// A registry scene.
+pub fn scene(id: &str, detail: f32) -> Scene {
+    (umbrage::core::scenes::find(id).expect("a scene of the registry").build)(detail)
+}
+
+/// A renderer with one technique on one light.
+pub fn renderer(gpu: &Gpu, scene: &Scene, light: usize, id: &str, set: &str, size: (u32, u32)) -> Renderer {
+    let info = find(id).unwrap();
+    let technique = info.make(gpu, &info.settings(&pairs(set)).unwrap()).unwrap();
+    Renderer::new(gpu, scene, size.0, size.1, vec![LightPass { light, technique }]).unwrap()
+}
+
+/// The visibility that `renderer` gives for the scene's camera.
+pub fn visibility(renderer: &mut Renderer, scene: &Scene) -> Image<f32> {
+    renderer.frame(&scene.camera).unwrap();
+    renderer.visibility(0).unwrap()
+}
+
+/// Scores a technique against a ray-traced picture of `samples` a pixel.
+pub fn against_truth(
+    gpu: &Gpu,
+    scene: &Scene,
+    light: usize,
+    id: &str,
+    set: &str,
+    size: (u32, u32),
+    samples: u32,
+) -> Scores {
+    let mut renderer = renderer(gpu, scene, light, id, set, size);
+    let produced = visibility(&mut renderer, scene);
+    let tracer = Tracer::new(scene);
+    let geometry = tracer.geometry(&scene.camera, size.0, size.1);
+    let options = Options { samples, ..Options::default() };
+    let truth = tracer.visibility(&geometry, &scene.lights[light], &scene.textures, &options, &|_, _| ());
+    let beside_edges = discontinuities(&geometry.depth, &geometry.model);
+    let mask = Image::from_fn(size.0, size.1, |x, y| {
+        truth.scored[(x, y)] && !beside_edges[(x, y)] && geometry.depth[(x, y)] < 60.0
+    });
+    let views = renderer.technique(0).unwrap().light_views();
+    let reach = map_reach(views, &scene.camera, &geometry.depth, &geometry.normal);
+    let reference = &truth.visibility;
+    score(&Comparison { produced: &produced, reference, mask: &mask, hard: None, reach: Some(&reach) }).unwrap()
+}
+
+/// The folder of shared data, where there is one.
+pub fn shared() -> Option<PathBuf> {
+    let beside = || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared"));
+    let folder = std::env::var_os("UMBRAGE_SHARED").map_or_else(beside, PathBuf::from);
+    folder.is_dir().then_some(folder)
+}

@@ -1,0 +1,48 @@
+//! Every technique against the ground truth, scene by scene. An error above its bound fails; so does one far below it,
+//! since then the bound (and the technique's README) has to follow.
+
+use crate::common::{against_truth, gpu, scene};
+
+/// Scene and its detail, light, technique, settings, mean absolute error ×10⁻⁴ at 320×240, least interior per cent.
+type Row = (&'static str, f32, usize, &'static str, &'static str, f64, f64);
+
+const GOLDEN: &[Row] = &[
+    ("primitives", 1.0, 0, "shadow-map", "size=2048", 3.3, 99.95),
+    ("primitives", 1.0, 0, "shadow-map", "size=2048,faces=midpoint", 3.3, 99.95),
+    ("primitives", 1.0, 0, "shadow-map", "size=2048,faces=back", 3.3, 99.95),
+    ("primitives", 1.0, 0, "shadow-map", "size=2048,focus=light", 3.4, 99.95),
+    ("primitives", 1.0, 0, "pcf", "size=2048,kernel=2x2", 3.8, 99.95),
+    ("primitives", 1.0, 0, "pcf", "size=2048,kernel=3", 6.6, 99.95),
+    ("primitives", 1.0, 0, "pcf", "size=2048,kernel=5", 11.4, 99.9),
+    ("primitives", 1.0, 0, "pcf", "size=2048,kernel=7", 20.4, 99.6),
+    ("primitives", 1.0, 0, "pcf", "size=2048,kernel=disc", 9.6, 99.9),
+    ("atrium", 0.3, 0, "shadow-map", "size=2048", 16.7, 99.95),
+    ("city", 1.0, 0, "shadow-map", "size=2048", 69.0, 99.95),
+    ("terrain", 0.5, 0, "shadow-map", "size=2048", 57.5, 99.95),
+    ("lantern", 1.0, 0, "shadow-map", "size=2048", 10.0, 99.95),
+    ("lantern", 1.0, 0, "pcf", "size=2048,kernel=3", 29.7, 99.95),
+    ("picket-fence", 1.0, 0, "shadow-map", "size=2048", 10.5, 99.95),
+    ("contact", 1.0, 0, "shadow-map", "size=2048", 6.9, 99.95),
+    ("overlap", 1.0, 0, "shadow-map", "size=2048", 4.7, 99.95),
+    ("duelling-frusta", 1.0, 0, "shadow-map", "size=2048", 101.0, 99.95),
+];
+
+#[test]
+fn errors_are_as_stated() {
+    let gpu = gpu();
+    let mut wrong = Vec::new();
+    for &(id, detail, light, technique, set, mae, interior) in GOLDEN {
+        let s = against_truth(&gpu, &scene(id, detail), light, technique, set, (320, 240), 1);
+        let (got, inside) = (s.mae * 1e4, s.interior_pct.unwrap_or(0.0));
+        let row = format!(
+            "{id} {technique} {set}: mae {got:.2}e-4 (stated {mae}), interior {inside:.3} % (at least {interior})"
+        );
+        println!("{row}");
+        if got > mae || inside < interior || s.not_finite > 0 {
+            wrong.push(format!("worse: {row}"));
+        } else if got < 0.5 * mae {
+            wrong.push(format!("much better, state it: {row}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}

@@ -1,0 +1,7 @@
+//! Tests that draw: they need a graphics adapter, a software one will do.
+
+mod common;
+mod golden;
+mod robust;
+mod shared_references;
+mod steady;
