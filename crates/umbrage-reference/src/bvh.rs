@@ -166,3 +166,50 @@ impl Boundable for Padded {
         self.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    struct Opaque;
+
+    impl Opacity for Opaque {
+        fn stops(&self, _: &Triangle, _: &SeenTriangle, _: DVec3) -> bool {
+            true
+        }
+    }
+
+    fn point() -> impl Strategy<Value = DVec3> {
+        // Whole numbers give boxes that are flat and share their sides.
+        let coordinate = || prop_oneof![-1.0..1.0, (-2..3).prop_map(f64::from)];
+        (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        /// Rays that just touch corners and edges of boxes, from near and from far.
+        #[test]
+        fn the_hierarchy_finds_what_testing_every_triangle_finds(
+            corners in prop::collection::vec((point(), point(), point()), 1..24),
+            chosen: prop::sample::Index, share in 0.0..=1.0, from in point(), distance in 0.5..1e4,
+        ) {
+            let triangles: Vec<Triangle> = corners
+                .iter()
+                .zip(0..)
+                .filter_map(|(&(a, b, c), id)| Triangle::new([a, b, c], id, Triangle::OPAQUE))
+                .collect();
+            let (a, b, c) = corners[chosen.index(corners.len())];
+            // Inside the triangle by less than single precision resolves.
+            let target = a.lerp(b, share).lerp(c, 1e-9);
+            let origin = from * distance;
+            let ray = Ray { origin, direction: target - origin, t_min: 0.0, t_max: 1.0 + 1e-12 };
+            let hits = |t: &Triangle| t.seen_from(origin).is_hit(ray.direction, ray.t_min, ray.t_max);
+            let bvh = Bvh::new(triangles.clone());
+            prop_assert_eq!(bvh.is_blocked(&ray, None, &Opaque), triangles.iter().any(hits));
+            let nearest = triangles.iter().filter(|t| hits(t)).map(|t| t.seen_from(origin).distance(ray.direction));
+            prop_assert_eq!(bvh.first(&ray, &Opaque).map(|(_, t)| t), nearest.min_by(f64::total_cmp));
+        }
+    }
+}
