@@ -51,7 +51,7 @@ impl Bvh {
     /// Index of some triangle, not of number `own`, that stops the ray.
     pub fn blocker(&self, ray: &Ray, own: Option<u32>, opacity: &impl Opacity) -> Option<usize> {
         let mut found = None;
-        self.tree.ray_traverse_miss(self.box_ray(ray)?, |_, i| {
+        self.tree.ray_traverse_miss(self.box_ray(ray)?.0, |_, i| {
             if self.stops(i, ray, own, opacity) {
                 found = Some(i);
                 0.0
@@ -74,8 +74,7 @@ impl Bvh {
 
     /// The first triangle that stops the ray, and its t. Of triangles at the same place it is the first of the scene.
     pub fn first(&self, ray: &Ray, opacity: &impl Opacity) -> Option<(&Triangle, f64)> {
-        let box_ray = self.box_ray(ray)?;
-        let start = (box_ray.origin.as_dvec3() - ray.origin).dot(box_ray.direction.as_dvec3());
+        let (box_ray, start) = self.box_ray(ray)?;
         let length = ray.direction.length();
         let mut best: Option<(&Triangle, f64)> = None;
         let mut hit = RayHit::none();
@@ -124,9 +123,9 @@ impl Bvh {
         &self.triangles[index as usize]
     }
 
-    /// The ray for the boxes: its start moved to where it comes near them, its t the length from there. `None` where it
-    /// surely misses them all or has no direction.
-    fn box_ray(&self, ray: &Ray) -> Option<BoxRay> {
+    /// The ray for the boxes, and how far along it starts: where it comes near them. Its t is the length from there.
+    /// `None` where it surely misses them all or has no direction.
+    fn box_ray(&self, ray: &Ray) -> Option<(BoxRay, f64)> {
         let length = ray.direction.length();
         let direction = ray.direction / length;
         if !(direction.is_finite() && ray.origin.is_finite()) {
@@ -142,7 +141,8 @@ impl Bvh {
         let t_max = ray.t_max * length - start;
         let origin = (ray.origin + direction * start).as_vec3a();
         let far_behind = middle < -reach;
-        (t_max > 0.0 && !far_behind).then(|| BoxRay::new(origin, direction.as_vec3a(), 0.0, self.rounded_up(t_max)))
+        let t_max = (t_max > 0.0 && !far_behind).then(|| self.rounded_up(t_max))?;
+        Some((BoxRay::new(origin, direction.as_vec3a(), 0.0, t_max), start))
     }
 
     fn rounded_up(&self, length: f64) -> f32 {
