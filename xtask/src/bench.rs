@@ -10,7 +10,7 @@ use std::{fs, path::PathBuf};
 
 /// Scenes that need no file.
 const BUILT_IN: [&str; 4] = ["primitives", "atrium:0.25", "city", "terrain"];
-const FRAMES: &str = "60";
+const FRAMES: &str = "30";
 const SIZE: &str = "1024x768";
 
 /// Runs the benchmark and writes `benchmarks/<date>-<machine>/`.

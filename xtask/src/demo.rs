@@ -13,7 +13,7 @@ const FOLDER: &str = "out/demo";
 pub fn run() -> Result<()> {
     setup::run(Profile::Release)?;
     let start = Instant::now();
-    let scenes = ["primitives", "contact", "lantern", "atrium:0.25", "city"];
+    let scenes = ["primitives", "contact", "lantern", "atrium:0.25", "city", "terrain"];
     let mut arguments = vec!["compare"];
     arguments.extend(scenes);
     let techniques = "all,shadow-map:light-samples=64";
