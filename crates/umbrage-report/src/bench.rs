@@ -5,7 +5,7 @@ use crate::{
     compare::check_choices,
     error::Error,
     made::Made,
-    measure::{Frames, is_of_technique},
+    measure::Frames,
     progress::Progress,
     record::{SCHEMA, Status},
     round::maybe_six,
@@ -280,11 +280,6 @@ impl BenchCost {
     /// All that the technique adds to a frame: preparing it and its passes, milliseconds.
     pub fn added_ms(&self) -> Option<f64> {
         self.gpu_ms.map(|gpu| gpu.median + self.prepare_ms.median)
-    }
-
-    /// The passes of the technique itself.
-    pub fn own_passes(&self) -> impl Iterator<Item = &BenchPass> {
-        self.passes.iter().filter(|p| is_of_technique(&p.owner))
     }
 }
 

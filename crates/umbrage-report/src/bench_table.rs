@@ -1,7 +1,8 @@
 //! Benchmark results as JSON, as CSV and on a terminal.
 
 use crate::{
-    bench::{BenchReport, BenchResult},
+    bench::{BenchPass, BenchReport, BenchResult},
+    measure::is_of_technique,
     record::Status,
     round::rounded,
     spread::Spread,
@@ -110,7 +111,9 @@ fn table(results: &[BenchResult]) -> Table {
             Some(cost) => {
                 let ms = |v: f64| format!("{v:.2}");
                 let maybe = |v: Option<f64>| v.map_or("–".into(), ms);
-                let passes = cost.own_passes().map(|p| format!("{} {:.2}", p.pass, p.time_ms.median));
+                // The floor shows what the renderer itself takes: its G-buffer and shading.
+                let is_shown = |p: &&BenchPass| is_of_technique(&p.owner) || result.technique == "floor";
+                let passes = cost.passes.iter().filter(is_shown).map(|p| format!("{} {:.2}", p.pass, p.time_ms.median));
                 let cells = [
                     ms(cost.frame_ms.median),
                     ms(cost.prepare_ms.median),
@@ -135,7 +138,7 @@ fn table(results: &[BenchResult]) -> Table {
 mod tests {
     use super::*;
     use crate::{
-        bench::{BenchCost, BenchLight, BenchPass, BenchScene},
+        bench::{BenchCost, BenchLight, BenchScene},
         made::Made,
         record::{SCHEMA, fixture},
     };
