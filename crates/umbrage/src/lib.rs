@@ -52,7 +52,7 @@ pub use params::{Param, ParamKind, Settings, Value};
 pub use passes::{PassTime, Passes, Recorder};
 pub use receivers::Receivers;
 pub use renderer::{LightPass, Renderer};
-pub use shader::{HostLayout, Shader};
+pub use shader::{HostLayout, PACK_NORMAL, Shader};
 pub use technique::{DebugView, Stats, Technique, TechniqueInfo};
 pub use techniques::{find, techniques};
 

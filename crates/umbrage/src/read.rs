@@ -3,6 +3,7 @@
 use crate::{error::Error, gpu::Gpu};
 use half::f16;
 use umbrage_core::Image;
+use umbrage_core::glam::Vec3;
 
 /// 8-bit colour.
 pub(crate) fn rgba8(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[u8; 4]>, Error> {
@@ -23,10 +24,26 @@ pub(crate) fn one_channel(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Res
     Ok(image(texture, data))
 }
 
-/// Four half-float channels.
-pub(crate) fn four_channels(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[f32; 4]>, Error> {
+/// Unit vectors that the shader's `pack_normal` packed.
+pub(crate) fn packed_normals(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[f32; 3]>, Error> {
     let bytes = rows(gpu, texture, 0)?;
-    Ok(image(texture, halves(&bytes).as_chunks::<4>().0.to_vec()))
+    let unpack = |b: &[u8; 4]| {
+        let part = |low, high| f32::from(i16::from_le_bytes([low, high])).max(-32767.0) / 32767.0;
+        let (x, y) = (part(b[0], b[1]), part(b[2], b[3]));
+        let z = 1.0 - x.abs() - y.abs();
+        let fold = (-z).max(0.0);
+        let sign = |v: f32| {
+            if v > 0.0 {
+                1.0
+            } else if v < 0.0 {
+                -1.0
+            } else {
+                0.0
+            }
+        };
+        Vec3::new(x - fold * sign(x), y - fold * sign(y), z).normalize_or_zero().to_array()
+    };
+    Ok(image(texture, bytes.as_chunks::<4>().0.iter().map(unpack).collect()))
 }
 
 fn halves(bytes: &[u8]) -> Vec<f32> {

@@ -4,8 +4,8 @@ use crate::gpu::Gpu;
 
 /// Depth (and normals) of the visible surfaces, made once per size.
 ///
-/// Depth is any sampled depth format with one sample a pixel. Normals are `Rgba16Float`: `xyz` the geometric normal in
-/// world space, of unit length, either side; `w` is not read. Without them normals come from the depth itself, which
+/// Depth is any sampled depth format with one sample a pixel. Normals are `R32Uint`: the geometric normal in world space,
+/// either side, packed by the function in [`crate::PACK_NORMAL`]. Without them normals come from the depth itself, which
 /// costs a little and is less exact at the edges of surfaces.
 #[derive(Clone, Debug)]
 pub struct Receivers {
@@ -51,10 +51,7 @@ impl Receivers {
         };
         gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("receivers"),
-            entries: &[
-                texture(0, wgpu::TextureSampleType::Depth),
-                texture(1, wgpu::TextureSampleType::Float { filterable: false }),
-            ],
+            entries: &[texture(0, wgpu::TextureSampleType::Depth), texture(1, wgpu::TextureSampleType::Uint)],
         })
     }
 }
@@ -66,7 +63,7 @@ fn placeholder(gpu: &Gpu) -> wgpu::TextureView {
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba16Float,
+        format: wgpu::TextureFormat::R32Uint,
         usage: wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
     });

@@ -9,7 +9,7 @@ use crate::{
     view::View,
     visibility::VisibilityTarget,
 };
-use umbrage_core::glam::{DMat4, DVec4};
+use umbrage_core::glam::{DMat3, DMat4, DVec3, DVec4};
 
 shader_struct! {
     /// How to get from a pixel to the surface it shows.
@@ -17,7 +17,18 @@ shader_struct! {
         eye_from_ndc: [[f32; 4]; 4],
         ndc_from_pixel: [f32; 2],
         background_depth: f32,
+        reach: f32,
+    }
+}
+
+shader_struct! {
+    /// One view of the light, see `wgsl/map_lookup.wgsl`.
+    pub(crate) struct MapLayer {
+        map_from_ndc: [[f32; 4]; 4],
+        slope_right: [f32; 3],
         spare: f32,
+        slope_down: [f32; 3],
+        more_spare: f32,
     }
 }
 
@@ -25,30 +36,33 @@ shader_struct! {
     /// See `wgsl/map_lookup.wgsl`.
     pub(crate) struct MapLookup {
         eye: Eye,
-        map_from_eye: [[[f32; 4]; 4]; 6],
-        map_from_eye_plane: [[[f32; 4]; 4]; 6],
-        light_eye: [f32; 3],
+        layers: [MapLayer; 6],
+        from_light: [[f32; 4]; 4],
+        axis: [f32; 3],
         size: f32,
         rounding: [f32; 2],
         per_metre: [f32; 2],
         bias: f32,
-        spare: f32,
-        more_spare: [f32; 2],
+        pad_a: f32,
+        pad_b: [f32; 2],
     }
 }
 
 /// Host structs of a lookup shader.
-pub(crate) const LOOKUP_LAYOUTS: &[crate::shader::HostLayout] = &[Eye::LAYOUT, MapLookup::LAYOUT];
+pub(crate) const LOOKUP_LAYOUTS: &[crate::shader::HostLayout] = &[Eye::LAYOUT, MapLayer::LAYOUT, MapLookup::LAYOUT];
 
 impl Eye {
     /// For the camera and size of `view`.
     pub(crate) fn new(view: &View<'_>) -> Self {
         let (width, height) = view.receivers.size;
+        let eye_from_ndc = view.clip_from_eye().inverse();
+        let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
+        let ends = corners.into_iter().flat_map(|(x, y)| [0.0, 1.0].map(|z| eye_from_ndc * DVec4::new(x, y, z, 1.0)));
         Self {
-            eye_from_ndc: view.clip_from_eye().inverse().as_mat4().to_cols_array_2d(),
+            reach: ends.map(|p| p.truncate().abs().element_sum()).fold(0.0, f64::max) as f32,
+            eye_from_ndc: eye_from_ndc.as_mat4().to_cols_array_2d(),
             ndc_from_pixel: [2.0 / width as f32, -2.0 / height as f32],
             background_depth: view.camera.background_depth(),
-            spare: 0.0,
         }
     }
 }
@@ -70,6 +84,7 @@ pub(crate) struct Lookup {
 /// What a pipeline is made for.
 #[derive(Clone, Copy, PartialEq)]
 struct Variant {
+    perspective: bool,
     cube: bool,
     has_normals: bool,
 }
@@ -104,7 +119,8 @@ impl Lookup {
         self.current = None;
         let Some(textures) = maps.textures.as_ref().filter(|_| !maps.views.is_empty()) else { return };
         self.data = self.uniforms(view, maps);
-        let variant = Variant { cube: maps.is_cube, has_normals: view.receivers.has_normals };
+        let perspective = self.is_perspective(maps);
+        let variant = Variant { perspective, cube: maps.is_cube, has_normals: view.receivers.has_normals };
         let known = self.pipelines.iter().position(|(v, _)| *v == variant);
         self.current = Some(known.unwrap_or_else(|| {
             self.pipelines.push((variant, self.pipeline(gpu, variant)));
@@ -132,45 +148,48 @@ impl Lookup {
     }
 
     fn uniforms(&self, view: &View<'_>, maps: &DepthMaps) -> MapLookup {
+        let eye_from_ndc = view.clip_from_eye().inverse();
         // A layer that was not rendered sends every point outside of the map, where all is lit.
         let outside = DMat4::from_cols(DVec4::ZERO, DVec4::ZERO, DVec4::ZERO, DVec4::new(-1.0, -1.0, 0.0, 1.0));
-        let mut map_from_eye = [outside; 6];
-        for v in &maps.views {
-            let size = f64::from(v.size);
-            let texels_from_clip = DMat4::from_cols(
-                DVec4::new(size * 0.5, 0.0, 0.0, 0.0),
-                DVec4::new(0.0, -size * 0.5, 0.0, 0.0),
-                DVec4::Z,
-                DVec4::new(size * 0.5, size * 0.5, 0.0, 1.0),
-            );
-            map_from_eye[v.layer as usize] =
-                texels_from_clip * v.clip_from_world * DMat4::from_translation(view.camera.eye);
-        }
-        let planes = map_from_eye.map(|m| {
-            let p = m.inverse().transpose();
-            // Only directions of planes matter: scaled so that single precision holds them.
-            p * (1.0 / p.to_cols_array().iter().fold(f64::MIN_POSITIVE, |a, x| a.max(x.abs())))
-        });
+        let mut layers = [MapLayer { map_from_ndc: matrix(&outside), ..MapLayer::default() }; 6];
+        let mut axis = DVec3::ZERO;
         let center = view.light.shape.center();
-        let perspective = maps.views.first().is_some_and(|v| maps.is_perspective(v));
+        for v in &maps.views {
+            let map_from_world = texels_from_clip(v.size) * v.clip_from_world;
+            let slopes = Slopes::of(&map_from_world, maps.is_perspective(v));
+            axis = slopes.axis;
+            layers[v.layer as usize] = MapLayer {
+                map_from_ndc: matrix(&(map_from_world * DMat4::from_translation(view.camera.eye) * eye_from_ndc)),
+                slope_right: slopes.right.as_vec3().to_array(),
+                slope_down: slopes.down.as_vec3().to_array(),
+                ..MapLayer::default()
+            };
+        }
+        let from_light = DMat4::from_translation(view.camera.eye * center.w - center.truncate()) * eye_from_ndc;
         MapLookup {
             eye: Eye::new(view),
-            map_from_eye: map_from_eye.map(|m| m.as_mat4().to_cols_array_2d()),
-            map_from_eye_plane: planes.map(|m| m.as_mat4().to_cols_array_2d()),
-            light_eye: (center.truncate() - view.camera.eye * center.w).as_vec3().to_array(),
+            layers,
+            from_light: matrix(&from_light),
+            axis: axis.as_vec3().to_array(),
             size: maps.size as f32,
             // Depth 0…1 in single precision; perspective depth keeps its relative precision, parallel depth does not.
-            rounding: if perspective { [2e-6, 0.0] } else { [0.0, 1e-6] },
+            rounding: if self.is_perspective(maps) { [2e-6, 0.0] } else { [0.0, 1e-6] },
             per_metre: per_metre(maps),
             bias: self.bias as f32,
             ..MapLookup::default()
         }
     }
 
+    fn is_perspective(&self, maps: &DepthMaps) -> bool {
+        maps.views.first().is_some_and(|v| maps.is_perspective(v))
+    }
+
     fn pipeline(&self, gpu: &Gpu, variant: Variant) -> wgpu::RenderPipeline {
         let mut constants = self.constants.clone();
-        constants.push(("CUBE", f64::from(u8::from(variant.cube))));
-        constants.push(("HAS_NORMALS", f64::from(u8::from(variant.has_normals))));
+        let on = |switch: bool| if switch { 1.0 } else { 0.0 };
+        constants.push(("PERSPECTIVE", on(variant.perspective)));
+        constants.push(("CUBE", on(variant.cube)));
+        constants.push(("HAS_NORMALS", on(variant.has_normals)));
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             bind_group_layouts: &[Some(&Receivers::layout(gpu)), Some(&self.layout)],
             ..Default::default()
@@ -213,6 +232,45 @@ impl Lookup {
             ],
         })
     }
+}
+
+/// What a plane's normal has to do with the slope of its stored depth: slope = (n · right, n · down) / n · axis for
+/// parallel light, where n · (p − light) stands for n · axis in perspective.
+struct Slopes {
+    right: DVec3,
+    down: DVec3,
+    axis: DVec3,
+}
+
+impl Slopes {
+    fn of(map_from_world: &DMat4, perspective: bool) -> Self {
+        let rows = [0, 1, 2, 3].map(|i| map_from_world.row(i).truncate());
+        if perspective {
+            // Texels times w and w itself are linear in p − light, and 1 is depth times w over near.
+            let near = map_from_world.row(2).w;
+            let inverse = DMat3::from_cols(rows[0], rows[1], rows[3]).inverse();
+            let row = |i: usize| inverse.row(i) * near;
+            return Self { right: row(0), down: row(1), axis: DVec3::ZERO };
+        }
+        let inverse = DMat3::from_cols(rows[0], rows[1], rows[2]).inverse();
+        let scale = 1.0 / inverse.row(2).length().max(f64::MIN_POSITIVE);
+        Self { right: inverse.row(0) * -scale, down: inverse.row(1) * -scale, axis: inverse.row(2) * scale }
+    }
+}
+
+/// Clip space to texels across and down, row 0 at the top.
+fn texels_from_clip(size: u32) -> DMat4 {
+    let half = f64::from(size) * 0.5;
+    DMat4::from_cols(
+        DVec4::new(half, 0.0, 0.0, 0.0),
+        DVec4::new(0.0, -half, 0.0, 0.0),
+        DVec4::Z,
+        DVec4::new(half, half, 0.0, 1.0),
+    )
+}
+
+fn matrix(m: &DMat4) -> [[f32; 4]; 4] {
+    m.as_mat4().to_cols_array_2d()
 }
 
 /// How stored depth changes per metre along the light: perspective depth is near / distance, so its derivative is

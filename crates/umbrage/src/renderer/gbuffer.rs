@@ -2,14 +2,14 @@
 
 use crate::casters::{CASTERS_WGSL, Casters, DrawList, Instance, MATERIAL_LAYOUT, MATERIALS_WGSL, Which};
 use crate::casters::{texture_layout, vertex_layouts};
-use crate::{gpu::Gpu, passes::Passes, shader::Shader, shader::shader_struct};
+use crate::{gpu::Gpu, passes::Passes, shader::PACK_NORMAL, shader::Shader, shader::shader_struct};
 use umbrage_core::glam::DMat4;
 use umbrage_core::{CameraView, Frustum};
 
 /// The shader.
 pub const SHADER: Shader = Shader {
     name: "G-buffer",
-    parts: &[CASTERS_WGSL, MATERIALS_WGSL, include_str!("gbuffer.wgsl")],
+    parts: &[CASTERS_WGSL, MATERIALS_WGSL, PACK_NORMAL, include_str!("gbuffer.wgsl")],
     layouts: &[GBufferView::LAYOUT, Instance::LAYOUT, MATERIAL_LAYOUT],
 };
 
@@ -24,16 +24,17 @@ shader_struct! {
     }
 }
 
+const PACKED: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 const WIDE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
 /// The targets and what draws them.
 pub(super) struct GBuffer {
     pub(super) depth: wgpu::Texture,
     pub(super) depth_view: wgpu::TextureView,
-    /// Geometric normal turned to the eye, and 1 where shadows fall.
+    /// Geometric normal turned to the eye, packed.
     pub(super) normal: wgpu::Texture,
     pub(super) normal_view: wgpu::TextureView,
-    /// Shading normal and shininess.
+    /// Shading normal, and shininess: negative where no shadow falls.
     pub(super) shading_view: wgpu::TextureView,
     /// Base colour and specular strength.
     pub(super) color_view: wgpu::TextureView,
@@ -62,7 +63,7 @@ impl GBuffer {
             })
         };
         let depth = texture("depth", wgpu::TextureFormat::Depth32Float);
-        let normal = texture("geometric normal", WIDE);
+        let normal = texture("geometric normal", PACKED);
         let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
         let view_layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("camera"),
@@ -168,9 +169,7 @@ fn pipeline(gpu: &Gpu, view_layout: &wgpu::BindGroupLayout, entry: &str) -> wgpu
             module: &module,
             entry_point: Some(entry),
             compilation_options: Default::default(),
-            targets: &[const {
-                Some(wgpu::ColorTargetState { format: WIDE, blend: None, write_mask: wgpu::ColorWrites::ALL })
-            }; 4],
+            targets: &[PACKED, WIDE, WIDE, WIDE].map(|format| Some(format.into())),
         }),
         multiview_mask: None,
         cache: None,

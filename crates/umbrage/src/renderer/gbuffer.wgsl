@@ -20,9 +20,9 @@ struct Surface {
 }
 
 struct Targets {
-    // Geometric normal turned to the eye; 1 where shadows fall.
-    @location(0) normal: vec4f,
-    // Shading normal; shininess.
+    // Geometric normal turned to the eye, packed.
+    @location(0) normal: u32,
+    // Shading normal; shininess, negative where no shadow falls.
     @location(1) shading: vec4f,
     // Base colour; specular strength.
     @location(2) color: vec4f,
@@ -54,10 +54,9 @@ fn targets(in: Surface, base: vec4f) -> Targets {
     let smooth_normal = in.normal * inverseSqrt(max(dot(in.normal, in.normal), 1e-38));
     let shading = select(smooth_normal, -smooth_normal, dot(smooth_normal, geometric) < 0.0);
     let material = materials[instances[in.instance].material];
-    let receives = f32(instances[in.instance].flags & RECEIVES);
     return Targets(
-        vec4f(geometric, receives),
-        vec4f(shading, material.shininess),
+        pack_normal(geometric),
+        vec4f(shading, select(-material.shininess, material.shininess, (instances[in.instance].flags & RECEIVES) != 0u)),
         vec4f(base.rgb, material.specular),
         vec4f(material.emissive + gbuffer_view.ambient * base.rgb, 1.0),
     );

@@ -202,7 +202,15 @@ impl Renderer {
     /// # Errors
     /// As [`Renderer::color`].
     pub fn normal(&self) -> Result<Image<[f32; 3]>, Error> {
-        Ok(read::four_channels(&self.gpu, &self.gbuffer.normal)?.map(|n| [n[0], n[1], n[2]]))
+        let (packed, depth) = (
+            read::packed_normals(&self.gpu, &self.gbuffer.normal)?,
+            read::one_channel(&self.gpu, &self.gbuffer.depth, 0)?,
+        );
+        Ok(Image::from_fn(
+            packed.width,
+            packed.height,
+            |x, y| if depth[(x, y)] > 0.0 { packed[(x, y)] } else { [0.0; 3] },
+        ))
     }
 
     /// A picture of the inside of a technique, as it is stored.

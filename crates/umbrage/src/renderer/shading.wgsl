@@ -27,8 +27,8 @@ fn shade(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let to_light = light.center.xyz - position * light.center.w;
     let distance = length(to_light);
     let l = to_light / max(distance, 1e-20);
-    let geometric = textureLoad(receiver_normal, pixel, 0);
-    if dot(geometric.xyz, l) <= 0.0 {
+    let geometric = unpack_normal(textureLoad(receiver_normal, pixel, 0).x);
+    if dot(geometric, l) <= 0.0 {
         return vec4f(0.0);
     }
     var attenuation = 1.0;
@@ -42,13 +42,13 @@ fn shade(@builtin(position) at: vec4f) -> @location(0) vec4f {
         attenuation *= t * t * (3.0 - 2.0 * t);
     }
     // No shadow falls on what does not receive.
-    let visibility = select(1.0, textureLoad(visibility_texture, pixel, 0).x, geometric.w > 0.5);
     let shading = textureLoad(surface_shading, pixel, 0);
+    let visibility = select(1.0, textureLoad(visibility_texture, pixel, 0).x, shading.w > 0.0);
     let color = textureLoad(surface_color, pixel, 0);
     let n = shading.xyz;
     let diffuse = max(dot(n, l), 0.0);
     let mirrored = 2.0 * dot(n, l) * n - l;
     let toward_eye = max(dot(mirrored, -normalize(position)), 0.0);
-    let specular = select(0.0, color.w * pow(toward_eye, shading.w), diffuse > 0.0 && color.w > 0.0);
+    let specular = select(0.0, color.w * pow(toward_eye, abs(shading.w)), diffuse > 0.0 && color.w > 0.0);
     return vec4f(attenuation * visibility * light.color * (color.rgb * diffuse + specular), 0.0);
 }

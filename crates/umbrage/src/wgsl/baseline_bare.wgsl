@@ -1,14 +1,13 @@
-// Reconstruct, project, one compare: a shadow map without any care.
+// Project, one compare: a shadow map without any care.
 
 @fragment
 fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
-    let depth = textureLoad(receiver_depth, vec2i(at.xy), 0);
-    let position = position_eye(map.eye, at.xy, depth);
+    let ndc = ndc_of(map.eye, at.xy, textureLoad(receiver_depth, vec2i(at.xy), 0));
     var layer = 0u;
     if CUBE {
-        layer = face_of_cube(position - map.light_eye);
+        layer = face_of_cube((map.from_light * ndc).xyz);
     }
-    let p = map.map_from_eye[layer] * vec4f(position, 1.0);
+    let p = map.layers[layer].map_from_ndc * ndc;
     let stored = textureLoad(map_depth, vec2i(p.xy / p.w), layer, 0);
     return select(0.0, 1.0, p.z / p.w >= stored);
 }

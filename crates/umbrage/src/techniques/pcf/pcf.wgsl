@@ -50,9 +50,7 @@ fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
     if depth == map.eye.background_depth {
         return 1.0;
     }
-    let position = position_eye(map.eye, at.xy, depth);
-    let rounding = position_rounding(map.eye, at.xy, depth, position);
-    let point = map_point(position, normal_world(map.eye, at.xy, depth), rounding);
+    let point = map_point(at.xy, depth, normal_world(map.eye, at.xy, depth));
     if !point.is_covered {
         return 1.0;
     }
