@@ -1,7 +1,7 @@
 //! Triangle meshes.
 
 use crate::bounds::Bounds;
-use glam::{DAffine3, Vec2, Vec3};
+use glam::{DVec4, DAffine3, Vec2, Vec3};
 
 /// Indexed triangles in the mesh's own space.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -37,6 +37,18 @@ impl Mesh {
     /// The box around the vertices that triangles use.
     pub fn bounds(&self) -> Bounds {
         Bounds::of(self.indices.iter().map(|&i| self.positions[i as usize].as_dvec3()))
+    }
+
+    /// The plane that all triangles lie in, as a unit normal with the offset in `w` (n · p + w = 0), if there is one.
+    pub fn plane(&self) -> Option<DVec4> {
+        let corners = || self.indices.iter().map(|&i| self.positions[i as usize].as_dvec3());
+        let normal = self.triangles().find_map(|t| {
+            let [a, b, c] = self.corners(t).map(|p| p.as_dvec3());
+            (b - a).cross(c - a).try_normalize()
+        })?;
+        let offset = -normal.dot(corners().next()?);
+        let tolerance = 1e-7 * self.bounds().largest_coordinate();
+        corners().all(|p| (normal.dot(p) + offset).abs() <= tolerance).then_some(normal.extend(offset))
     }
 
     /// Gives every vertex a normal where the mesh has none (or a wrong number of them): the mean of its
@@ -135,6 +147,14 @@ fn angle_at(corners: [Vec3; 3], k: usize) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_flat_meshes_have_a_plane() {
+        let plane = crate::primitive::plane().plane();
+        assert_eq!(plane.map(|p| p.y.abs()), Some(1.0));
+        assert_eq!(crate::primitive::cube().plane(), None);
+        assert_eq!(Mesh::default().plane(), None);
+    }
     use crate::primitive;
     use glam::DVec3;
 

@@ -63,7 +63,7 @@ pub fn floor(gpu: &Gpu) -> Box<dyn Technique> {
 /// [`Error::Size`] beyond the adapter's limit.
 pub fn bare_minimum(gpu: &Gpu, size: u32) -> Result<Box<dyn Technique>, Error> {
     let settings = techniques::shadow_map::INFO.settings(&[("size".into(), size.to_string())])?;
-    Ok(Box::new(MapTechnique::new(gpu, &settings, &BARE, 0.0, &[])?))
+    Ok(Box::new(MapTechnique::new(gpu, &settings, &BARE, 0.0, &[])?.with_every_caster()))
 }
 
 struct Floor {

@@ -6,7 +6,7 @@
 
 use crate::{error::Error, gpu::Gpu, passes::Passes, shader::shader_struct};
 use std::ops::Range;
-use umbrage_core::glam::{DAffine3, DVec3};
+use umbrage_core::glam::{DAffine3, DVec3, DVec4};
 use umbrage_core::{Bounds, Frustum, Scene};
 
 mod material;
@@ -62,6 +62,9 @@ struct Placed {
     number: u32,
     mesh_bounds: Bounds,
     bounds: Bounds,
+    /// Of a flat mesh, in its own space.
+    mesh_plane: Option<DVec4>,
+    plane: Option<DVec4>,
     casts: bool,
     receives: bool,
     data: Instance,
@@ -87,7 +90,7 @@ impl Casters {
                 [n.x, n.y, n.z, uv.x, uv.y]
             }));
             indices.extend(&mesh.indices);
-            ranges.push((first..indices.len() as u32, base_vertex, mesh.bounds()));
+            ranges.push((first..indices.len() as u32, base_vertex, mesh.bounds(), mesh.plane()));
         }
         let mut order: Vec<usize> = (0..scene.instances.len()).collect();
         let key = |i: usize| {
@@ -102,7 +105,7 @@ impl Casters {
         for &i in &order {
             let instance = &scene.instances[i];
             let (masked, texture, mesh) = key(i);
-            let (range, base_vertex, bounds) = ranges[mesh].clone();
+            let (range, base_vertex, bounds, plane) = ranges[mesh].clone();
             if last != Some((masked, texture, mesh)) {
                 last = Some((masked, texture, mesh));
                 batches.push(Batch {
@@ -117,6 +120,8 @@ impl Casters {
                 number: i as u32,
                 mesh_bounds: bounds,
                 bounds: bounds.transformed(&instance.world_from_mesh),
+                mesh_plane: plane,
+                plane: plane.map(|p| moved_plane(p, &instance.world_from_mesh)),
                 casts: instance.casts,
                 receives: instance.receives,
                 data: Instance {
@@ -174,6 +179,7 @@ impl Casters {
     pub fn move_instance(&mut self, gpu: &Gpu, instance: usize, world_from_mesh: &DAffine3) {
         let Some(placed) = self.placed.iter_mut().find(|p| p.number as usize == instance) else { return };
         placed.bounds = placed.mesh_bounds.transformed(world_from_mesh);
+        placed.plane = placed.mesh_plane.map(|p| moved_plane(p, world_from_mesh));
         let Instance { row0, row1, row2, .. } = rows(world_from_mesh, self.origin);
         placed.data = Instance { row0, row1, row2, ..placed.data };
         let at = instance as u64 * size_of::<Instance>() as u64;
@@ -207,27 +213,53 @@ impl Casters {
 }
 
 /// Which instances a draw list is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Which {
-    /// Those that throw shadows.
-    Casting,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Which {
     /// All of them.
     Visible,
+    /// Those that throw shadows.
+    Casting,
+    /// Those whose shadow can fall on something.
+    Shadowing(Light),
+}
+
+/// A light and what its shadows may fall on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Light {
+    /// Its centre, homogeneous: see [`umbrage_core::LightShape::center`].
+    pub center: DVec4,
+    /// A box around all receivers.
+    pub receivers: Bounds,
+}
+
+impl Placed {
+    /// True where the instance is flat and all receivers are on the light's side of it: a floor that everything stands on
+    /// shadows nothing, and need not be drawn into a map.
+    fn shadows_nothing(&self, light: &Light) -> bool {
+        let Some(plane) = self.plane else { return false };
+        let side = plane.dot(light.center);
+        let rounding = 1e-9 * light.receivers.largest_coordinate();
+        let beyond = |p: DVec3| side.signum() * plane.dot(p.extend(1.0)) < -rounding;
+        side != 0.0 && !light.receivers.corners().into_iter().any(beyond)
+    }
+
+    fn is_in(&self, which: &Which) -> bool {
+        match which {
+            Which::Visible => true,
+            Which::Casting => self.casts,
+            Which::Shadowing(light) => self.casts && !self.shadows_nothing(light),
+        }
+    }
 }
 
 /// What one view draws: filled on the CPU, uploaded when recorded. Keeps its memory from frame to frame.
-pub struct DrawList {
+#[derive(Default)]
+pub(crate) struct DrawList {
     ids: Vec<u32>,
     draws: Vec<(usize, Range<u32>)>,
     buffer: Option<wgpu::Buffer>,
     /// Instances that the view doesn't see.
     pub culled: u32,
-}
-
-impl Default for DrawList {
-    fn default() -> Self {
-        Self { ids: Vec::new(), draws: Vec::new(), buffer: None, culled: 0 }
-    }
 }
 
 impl DrawList {
@@ -239,7 +271,7 @@ impl DrawList {
         for (i, batch) in casters.batches.iter().enumerate() {
             let first = self.ids.len() as u32;
             for placed in &casters.placed[batch.members.clone()] {
-                if which == Which::Casting && !placed.casts {
+                if !placed.is_in(&which) {
                     continue;
                 }
                 if frustum.may_see(&placed.bounds) {
@@ -337,6 +369,14 @@ pub(crate) fn vertex_layouts(textured: bool) -> Vec<Option<wgpu::VertexBufferLay
         layouts.push(layout(20, wgpu::VertexStepMode::Vertex, ATTRIBUTES));
     }
     layouts
+}
+
+/// A plane taken from mesh to world space.
+fn moved_plane(plane: DVec4, world_from_mesh: &DAffine3) -> DVec4 {
+    let normal = world_from_mesh.matrix3.inverse().transpose() * plane.truncate();
+    let normal = normal.normalize_or_zero();
+    let on_plane = world_from_mesh.transform_point3(plane.truncate() * -plane.w);
+    normal.extend(-normal.dot(on_plane))
 }
 
 fn rows(world_from_mesh: &DAffine3, origin: DVec3) -> Instance {

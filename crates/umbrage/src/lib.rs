@@ -44,7 +44,7 @@ mod techniques;
 mod view;
 mod visibility;
 
-pub use casters::{Casters, DrawList, Which};
+pub use casters::Casters;
 pub use error::Error;
 pub use gpu::{AdapterSummary, Gpu};
 pub use light_samples::light_samples;

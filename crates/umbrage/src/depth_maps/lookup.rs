@@ -26,9 +26,11 @@ shader_struct! {
     pub(crate) struct MapLayer {
         map_from_ndc: [[f32; 4]; 4],
         slope_right: [f32; 3],
-        spare: f32,
+        pad_a: f32,
         slope_down: [f32; 3],
-        more_spare: f32,
+        pad_b: f32,
+        slope_axis: [f32; 3],
+        pad_c: f32,
     }
 }
 
@@ -38,13 +40,11 @@ shader_struct! {
         eye: Eye,
         layers: [MapLayer; 6],
         from_light: [[f32; 4]; 4],
-        axis: [f32; 3],
-        size: f32,
         rounding: [f32; 2],
         per_metre: [f32; 2],
+        size: f32,
         bias: f32,
-        pad_a: f32,
-        pad_b: [f32; 2],
+        pad: [f32; 2],
     }
 }
 
@@ -152,16 +152,15 @@ impl Lookup {
         // A layer that was not rendered sends every point outside of the map, where all is lit.
         let outside = DMat4::from_cols(DVec4::ZERO, DVec4::ZERO, DVec4::ZERO, DVec4::new(-1.0, -1.0, 0.0, 1.0));
         let mut layers = [MapLayer { map_from_ndc: matrix(&outside), ..MapLayer::default() }; 6];
-        let mut axis = DVec3::ZERO;
         let center = view.light.shape.center();
         for v in &maps.views {
             let map_from_world = texels_from_clip(v.size) * v.clip_from_world;
             let slopes = Slopes::of(&map_from_world, maps.is_perspective(v));
-            axis = slopes.axis;
             layers[v.layer as usize] = MapLayer {
                 map_from_ndc: matrix(&(map_from_world * DMat4::from_translation(view.camera.eye) * eye_from_ndc)),
                 slope_right: slopes.right.as_vec3().to_array(),
                 slope_down: slopes.down.as_vec3().to_array(),
+                slope_axis: slopes.axis.as_vec3().to_array(),
                 ..MapLayer::default()
             };
         }
@@ -170,7 +169,6 @@ impl Lookup {
             eye: Eye::new(view),
             layers,
             from_light: matrix(&from_light),
-            axis: axis.as_vec3().to_array(),
             size: maps.size as f32,
             // Depth 0…1 in single precision; perspective depth keeps its relative precision, parallel depth does not.
             rounding: if self.is_perspective(maps) { [2e-6, 0.0] } else { [0.0, 1e-6] },
@@ -234,8 +232,7 @@ impl Lookup {
     }
 }
 
-/// What a plane's normal has to do with the slope of its stored depth: slope = (n · right, n · down) / n · axis for
-/// parallel light, where n · (p − light) stands for n · axis in perspective.
+/// What a plane's normal has to do with the slope of its stored depth, see `map_point` in `wgsl/map_lookup.wgsl`.
 struct Slopes {
     right: DVec3,
     down: DVec3,
@@ -245,16 +242,14 @@ struct Slopes {
 impl Slopes {
     fn of(map_from_world: &DMat4, perspective: bool) -> Self {
         let rows = [0, 1, 2, 3].map(|i| map_from_world.row(i).truncate());
-        if perspective {
-            // Texels times w and w itself are linear in p − light, and 1 is depth times w over near.
-            let near = map_from_world.row(2).w;
-            let inverse = DMat3::from_cols(rows[0], rows[1], rows[3]).inverse();
-            let row = |i: usize| inverse.row(i) * near;
-            return Self { right: row(0), down: row(1), axis: DVec3::ZERO };
-        }
-        let inverse = DMat3::from_cols(rows[0], rows[1], rows[2]).inverse();
-        let scale = 1.0 / inverse.row(2).length().max(f64::MIN_POSITIVE);
-        Self { right: inverse.row(0) * -scale, down: inverse.row(1) * -scale, axis: inverse.row(2) * scale }
+        // In perspective texels times w, and w, are linear in p − light; for parallel light texels and depth are in p.
+        let last = if perspective { rows[3] } else { rows[2] };
+        let inverse = DMat3::from_cols(rows[0], rows[1], last).inverse();
+        let axis = inverse.row(2);
+        // Any common factor will do: it cancels. The sign for parallel light is that of n · p being constant.
+        let scale = 1.0 / axis.length().max(f64::MIN_POSITIVE);
+        let sign = if perspective { scale } else { -scale };
+        Self { right: inverse.row(0) * sign, down: inverse.row(1) * sign, axis: axis * scale }
     }
 }
 

@@ -5,7 +5,7 @@ mod lookup;
 mod pipelines;
 
 use crate::{
-    casters::{Casters, DrawList, Which},
+    casters::{self, Casters, DrawList, Which},
     error::Error,
     gpu::Gpu,
     params::{Param, ParamKind, Settings},
@@ -24,7 +24,7 @@ pub(crate) const SHADERS: [Shader; 3] = [pipelines::DEPTH_SHADER, pipelines::SEC
 
 use umbrage_core::glam::DMat4;
 use umbrage_core::light_view::{Fit, FitScene, Focus, LightView, fit};
-use umbrage_core::{Frustum, LightKind, LightKinds};
+use umbrage_core::{Bounds, Frustum, LightKind, LightKinds};
 
 /// Names of the pictures inside, one a layer.
 const LAYER_NAMES: [&str; 6] = ["map-0", "map-1", "map-2", "map-3", "map-4", "map-5"];
@@ -93,6 +93,12 @@ impl MapTechnique {
         let lookup = Lookup::new(gpu, shader, settings.float("bias"), constants);
         Ok(Self { maps, lookup, draws: 0 })
     }
+
+    /// Also draws casters into the maps that can shadow nothing.
+    pub(crate) fn with_every_caster(mut self) -> Self {
+        self.maps.every_caster = true;
+        self
+    }
 }
 
 impl Technique for MapTechnique {
@@ -138,6 +144,8 @@ pub(crate) struct DepthMaps {
     midpoint: bool,
     focus: Focus,
     border_texels: f64,
+    /// Draws casters too that can shadow nothing: for the baseline.
+    every_caster: bool,
     pipelines: Pipelines,
     textures: Option<Textures>,
     scene: FitScene,
@@ -164,6 +172,7 @@ impl DepthMaps {
             midpoint: faces == "midpoint",
             focus: if settings.choice("focus") == "light" { Focus::Light } else { Focus::Visible },
             border_texels: reach_texels + 1.0,
+            every_caster: false,
             pipelines: Pipelines::new(gpu, faces == "back"),
             textures: None,
             scene: FitScene::default(),
@@ -189,10 +198,14 @@ impl DepthMaps {
         if self.textures.as_ref().is_none_or(|t| t.layers() < layer_count as u32) {
             self.textures = Some(Textures::new(gpu, &self.pipelines, self.size, layer_count as u32, self.midpoint));
         }
+        let receivers = self.scene.receivers.iter().fold(Bounds::EMPTY, |b, r| b.union(*r));
+        let center = view.light.shape.center();
+        let which =
+            if self.every_caster { Which::Casting } else { Which::Shadowing(casters::Light { center, receivers }) };
         for light_view in &self.views {
             let layer = &mut self.layers[light_view.layer as usize];
             let frustum = Frustum::of(&light_view.clip_from_world);
-            layer.list.fill(gpu, view.casters, Which::Casting, &frustum);
+            layer.list.fill(gpu, view.casters, which, &frustum);
             let clip_from_world = light_view.clip_from_world * DMat4::from_translation(view.casters.origin);
             layer.uniform = MapView { clip_from_world: clip_from_world.as_mat4().to_cols_array_2d() };
         }

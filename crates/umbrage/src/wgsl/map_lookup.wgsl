@@ -4,11 +4,14 @@
 struct MapLayer {
     // Camera's normalised device coordinates to texels and stored depth, homogeneous.
     map_from_ndc: mat4x4f,
-    // What the normal of a plane has to do with the change of its stored depth per texel to the right and down.
+    // What the normal of a plane has to do with the change of its stored depth per texel to the right and down, and
+    // what that is to be divided by.
     slope_right: vec3f,
-    spare: f32,
+    pad_a: f32,
     slope_down: vec3f,
-    more_spare: f32,
+    pad_b: f32,
+    slope_axis: vec3f,
+    pad_c: f32,
 }
 
 struct MapLookup {
@@ -16,18 +19,15 @@ struct MapLookup {
     layers: array<MapLayer, 6>,
     // Camera's normalised device coordinates to the way from a point light, times w. Chooses the face of a cube.
     from_light: mat4x4f,
-    // For parallel light: the axis that depth falls along, in its scale.
-    axis: vec3f,
-    // Texels across and down.
-    size: f32,
     // Rounding of stored depth: relative, and absolute.
     rounding: vec2f,
     // Change of stored depth per metre: times the squared depth, and constant.
     per_metre: vec2f,
+    // Texels across and down.
+    size: f32,
     // Multiplies the automatic bias.
     bias: f32,
-    pad_a: f32,
-    pad_b: vec2f,
+    pad: vec2f,
 }
 
 struct MapPoint {
@@ -35,8 +35,9 @@ struct MapPoint {
     texel: vec2f,
     // Depth that would be stored there.
     depth: f32,
-    // Change of depth per texel along the receiver's plane.
-    slope: vec2f,
+    // Change of depth per texel along the receiver's plane: `along` over `across`, kept apart to spare a division.
+    along: vec2f,
+    across: f32,
     // How much the depth may be off by rounding.
     rounding: f32,
     layer: u32,
@@ -67,45 +68,53 @@ fn face_of_cube(direction: vec3f) -> u32 {
 
 // For the surface with `normal` (either side, any length) that pixel `at` shows at `depth`.
 //
-// On a plane with normal n stored depth is linear in the texel, in perspective too, since it is near / distance there:
-// its slope is the ratio of n's share along a texel step to n · (p − light), or to n · axis for parallel light.
+// On a plane with normal n stored depth is linear in the texel, in perspective too, since it is near / distance there.
+// With m = (n · right, n · down, n · axis) the plane is m₀ u + m₁ v + m₂ = c · near / depth in perspective, so that its
+// slope is depth · (m₀, m₁) / (m₀ u + m₁ v + m₂); for parallel light it is (m₀, m₁) / m₂.
 fn map_point(at: vec2f, depth: f32, normal: vec3f) -> MapPoint {
     let ndc = ndc_of(map.eye, at, depth);
-    var layer = 0u;
-    var across = 0.0;
-    var w = 0.0;
-    if PERSPECTIVE {
-        let from_light = map.from_light * ndc;
-        w = from_light.w;
-        across = dot(normal, from_light.xyz) / w;
-        if CUBE {
-            layer = face_of_cube(from_light.xyz);
-        }
-    } else {
-        across = dot(normal, map.axis);
-    }
-    let p = map.layers[layer].map_from_ndc * ndc;
-    let inverse_w = 1.0 / p.w;
-    if !PERSPECTIVE {
-        w = p.w;
-    }
     var point: MapPoint;
+    point.layer = 0u;
+    if CUBE {
+        point.layer = face_of_cube((map.from_light * ndc).xyz);
+    }
+    let p = map.layers[point.layer].map_from_ndc * ndc;
+    let inverse_w = 1.0 / p.w;
     point.texel = p.xy * inverse_w;
     point.depth = p.z * inverse_w;
-    let along = vec2f(dot(normal, map.layers[layer].slope_right), dot(normal, map.layers[layer].slope_down));
-    // A plane seen edge-on has no slope to speak of; the largest that helps is one that spans the whole depth.
-    point.slope = clamp(along / across, vec2f(-1.0), vec2f(1.0));
+    let right = dot(normal, map.layers[point.layer].slope_right);
+    let down = dot(normal, map.layers[point.layer].slope_down);
+    point.along = vec2f(right, down);
+    point.across = dot(normal, map.layers[point.layer].slope_axis);
+    point.is_covered = all(point.texel >= vec2f(0.0)) && all(point.texel < vec2f(map.size));
+    var eye_inverse_w = inverse_w;
+    if PERSPECTIVE {
+        point.across += dot(point.along, point.texel);
+        point.along *= point.depth;
+        eye_inverse_w = 1.0 / eye_w(map.eye, ndc);
+        point.is_covered = point.is_covered && inverse_w * eye_inverse_w > 0.0;
+    }
     let z = abs(point.depth);
     let per_metre = map.per_metre.x * z * z + map.per_metre.y;
-    point.rounding = map.rounding.x * z + map.rounding.y + position_rounding(map.eye, depth, w) * per_metre;
-    point.layer = layer;
-    let inside = all(point.texel >= vec2f(0.0)) && all(point.texel < vec2f(map.size));
-    point.is_covered = inside && p.w * w > 0.0;
+    point.rounding = map.rounding.x * z + map.rounding.y + position_rounding(map.eye, depth, eye_inverse_w) * per_metre;
     return point;
 }
 
+// Change of depth per texel. A plane seen edge-on has no slope to speak of; the largest that helps spans all depth.
+fn map_slope(point: MapPoint) -> vec2f {
+    return clamp(point.along / point.across, vec2f(-1.0), vec2f(1.0));
+}
+
 // What comparing has to forgive when the compared surface may be `texels` away from the receiver's own place.
-fn map_bias(point: MapPoint, texels: f32) -> f32 {
-    let slope = abs(point.slope.x) + abs(point.slope.y);
-    return map.bias * (texels * slope + point.rounding);
+fn map_bias(point: MapPoint, slope: vec2f, texels: f32) -> f32 {
+    return map.bias * (texels * (abs(slope.x) + abs(slope.y)) + point.rounding);
+}
+
+// Whether a receiver is lit when `stored` lies `offset` texels away from it: its plane, continued to there, is compared
+// with forgiveness for a crease between. All is multiplied by |across|, so that nothing is divided and a plane seen
+// edge-on counts as lit.
+fn is_lit(point: MapPoint, offset: vec2f, stored: f32) -> bool {
+    let toward = dot(point.along, offset) * sign(point.across);
+    let crease = map.bias * CREASE * (abs(point.along.x) + abs(point.along.y));
+    return (point.depth + map.bias * point.rounding - stored) * abs(point.across) + toward + crease >= 0.0;
 }

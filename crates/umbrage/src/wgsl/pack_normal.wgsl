@@ -6,10 +6,11 @@ fn pack_normal(n: vec3f) -> u32 {
     return pack2x16snorm(select(folded, flat_normal.xy, flat_normal.z >= 0.0));
 }
 
-// Not of unit length.
+// Not of unit length: that saves the scaling.
 fn unpack_normal(bits: u32) -> vec3f {
-    let e = unpack2x16snorm(bits);
-    let z = 1.0 - abs(e.x) - abs(e.y);
-    let fold = max(-z, 0.0);
-    return vec3f(e - fold * sign(e), z);
+    let signed = bitcast<i32>(bits);
+    let e = vec2f(f32((signed << 16u) >> 16u), f32(signed >> 16u));
+    let z = 32767.0 - abs(e.x) - abs(e.y);
+    let fold = min(z, 0.0);
+    return vec3f(e + select(vec2f(-fold), vec2f(fold), e >= vec2f(0.0)), z);
 }

@@ -21,16 +21,22 @@ fn ndc_of(eye: Eye, pixel: vec2f, depth: f32) -> vec4f {
     return vec4f(pixel * eye.ndc_from_pixel + vec2f(-1.0, 1.0), depth, 1.0);
 }
 
+// The w of a position before division.
+fn eye_w(eye: Eye, ndc: vec4f) -> f32 {
+    let m = eye.eye_from_ndc;
+    return dot(vec4f(m[0].w, m[1].w, m[2].w, m[3].w), ndc);
+}
+
 fn position_eye(eye: Eye, pixel: vec2f, depth: f32) -> vec3f {
     let p = eye.eye_from_ndc * ndc_of(eye, pixel, depth);
     return p.xyz / p.w;
 }
 
 // How far, in metres, a position may be off because the depth buffer rounds: one step of single precision (or of 24 bits)
-// around `depth`. Next to nothing for a reversed projection, a millimetre and more for others. `w` is that of the
-// position before division.
-fn position_rounding(eye: Eye, depth: f32, w: f32) -> f32 {
-    let inverse = 1.0 / abs(w);
+// around `depth`. Next to nothing for a reversed projection, a millimetre and more for others. `inverse_w` is one over
+// the position's w before division.
+fn position_rounding(eye: Eye, depth: f32, inverse_w: f32) -> f32 {
+    let inverse = abs(inverse_w);
     // A normal taken from neighbouring depths is off by their rounding, too.
     let step = select(9.6e-7, 1.2e-7, HAS_NORMALS);
     return step * eye.reach * inverse * (1.0 + depth * abs(eye.eye_from_ndc[2].w) * inverse);

@@ -7,14 +7,14 @@ override TAPS: u32 = 16u;
 override RADIUS: f32 = 2.5;
 
 // Four compares around the corner between texels (corner − 1, corner), in the order of textureGather.
-fn gather(point: MapPoint, corner: vec2f, bias: f32) -> vec4f {
-    let reference = point.depth + dot(point.slope, corner - point.texel) + bias;
+fn gather(point: MapPoint, slope: vec2f, corner: vec2f, bias: f32) -> vec4f {
+    let reference = point.depth + dot(slope, corner - point.texel) + bias;
     return textureGatherCompare(map_depth, map_compare, corner / map.size, point.layer, reference);
 }
 
 // A box of KERNEL × KERNEL bilinear compares. Together they are the (KERNEL + 1)² texels around, each weighted by its
 // overlap with the box: inner ones whole, those at the border by the fraction. Gathers fetch them four at a time.
-fn square(point: MapPoint, bias: f32) -> f32 {
+fn square(point: MapPoint, slope: vec2f, bias: f32) -> f32 {
     let base = floor(point.texel - 0.5);
     let f = point.texel - 0.5 - base;
     let half_kernel = i32(KERNEL / 2u);
@@ -24,7 +24,7 @@ fn square(point: MapPoint, bias: f32) -> f32 {
         let rows = vec2f(select(1.0, 1.0 - f.y, y == -half_kernel), select(1.0, f.y, y == half_kernel));
         for (var x = -half_kernel; x <= half_kernel + 1; x += 2) {
             let columns = vec2f(select(1.0, 1.0 - f.x, x == -half_kernel), select(1.0, f.x, x == half_kernel));
-            let lit = gather(point, base + vec2f(f32(x), f32(y)) + 1.0, bias);
+            let lit = gather(point, slope, base + vec2f(f32(x), f32(y)) + 1.0, bias);
             sum += rows.y * (columns.x * lit.x + columns.y * lit.y) + rows.x * (columns.x * lit.w + columns.y * lit.z);
         }
     }
@@ -32,13 +32,13 @@ fn square(point: MapPoint, bias: f32) -> f32 {
 }
 
 // Points spread evenly over a disc along a golden spiral (Vogel), turned for every pixel so that steps become grain.
-fn disc(point: MapPoint, at: vec2f, bias: f32) -> f32 {
+fn disc(point: MapPoint, slope: vec2f, at: vec2f, bias: f32) -> f32 {
     let turn = fract(52.9829189 * fract(dot(at, vec2f(0.06711056, 0.00583715)))) * 6.2831853;
     var sum = 0.0;
     for (var i = 0u; i < TAPS; i++) {
         let angle = turn + f32(i) * 2.3999632;
         let offset = RADIUS * sqrt((f32(i) + 0.5) / f32(TAPS)) * vec2f(cos(angle), sin(angle));
-        let reference = point.depth + dot(point.slope, offset) + bias;
+        let reference = point.depth + dot(slope, offset) + bias;
         sum += textureSampleCompareLevel(map_depth, map_compare, (point.texel + offset) / map.size, point.layer, reference);
     }
     return sum / f32(TAPS);
@@ -55,12 +55,13 @@ fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
         return 1.0;
     }
     // Bilinear compares share one reference depth between texels half a texel away from it.
-    let bias = map_bias(point, 1.0 + CREASE);
+    let slope = map_slope(point);
+    let bias = map_bias(point, slope, 1.0 + CREASE);
     if KERNEL == 0u {
-        return disc(point, at.xy, bias);
+        return disc(point, slope, at.xy, bias);
     }
     if KERNEL == 2u {
         return textureSampleCompareLevel(map_depth, map_compare, point.texel / map.size, point.layer, point.depth + bias);
     }
-    return square(point, bias);
+    return square(point, slope, bias);
 }

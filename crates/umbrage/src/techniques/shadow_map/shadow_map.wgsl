@@ -11,8 +11,7 @@ fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
         return 1.0;
     }
     let texel = vec2i(point.texel);
-    // The receiver's plane at the middle of the texel, where the stored depth was taken.
-    let at_center = point.depth + dot(point.slope, vec2f(texel) + 0.5 - point.texel);
     let stored = textureLoad(map_depth, texel, point.layer, 0);
-    return select(0.0, 1.0, at_center + map_bias(point, CREASE) >= stored);
+    // Depth was stored at the middle of the texel.
+    return select(0.0, 1.0, is_lit(point, vec2f(texel) + 0.5 - point.texel, stored));
 }
