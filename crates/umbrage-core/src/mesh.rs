@@ -1,7 +1,7 @@
 //! Triangle meshes.
 
 use crate::bounds::Bounds;
-use glam::{DVec4, DAffine3, Vec2, Vec3};
+use glam::{DAffine3, DVec4, Vec2, Vec3};
 
 /// Indexed triangles in the mesh's own space.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -150,9 +150,9 @@ mod tests {
 
     #[test]
     fn only_flat_meshes_have_a_plane() {
-        let plane = crate::primitive::plane().plane();
+        let plane = primitive::plane().plane();
         assert_eq!(plane.map(|p| p.y.abs()), Some(1.0));
-        assert_eq!(crate::primitive::cube().plane(), None);
+        assert_eq!(primitive::cube().plane(), None);
         assert_eq!(Mesh::default().plane(), None);
     }
     use crate::primitive;

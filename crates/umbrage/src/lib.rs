@@ -53,7 +53,7 @@ pub use passes::{PassTime, Passes, Recorder};
 pub use receivers::Receivers;
 pub use renderer::{LightPass, Renderer};
 pub use shader::{HostLayout, PACK_NORMAL, Shader};
-pub use technique::{DebugView, Stats, Technique, TechniqueInfo};
+pub use technique::{DebugView, Make, Stats, Technique, TechniqueInfo};
 pub use techniques::{find, techniques};
 
 pub use umbrage_core as core;

@@ -8,7 +8,8 @@ use crate::gpu::Gpu;
 use std::sync::{Arc, Mutex, mpsc};
 use wgpu::util::StagingBelt;
 
-/// Passes that one frame can time; more run untimed.
+/// Passes that one frame can time (4096 queries are the most that WebGPU allows in a set). A frame with more has no
+/// times at all, rather than the sum of a part.
 const MAX_TIMED: u32 = 2048;
 
 /// GPU time of one pass, or the sum over passes of the same name in a frame.
@@ -172,19 +173,17 @@ impl Timer {
 
     fn slot(&mut self, owner: &str, pass: &str) -> Option<u32> {
         let i = self.names.len() as u32;
-        (i < MAX_TIMED).then(|| {
-            self.names.push((owner.to_string(), pass.to_string()));
-            i
-        })
+        self.names.push((owner.to_string(), pass.to_string()));
+        (i < MAX_TIMED).then_some(i)
     }
 
     fn resolve(&mut self, encoder: &mut wgpu::CommandEncoder) {
         self.take_arrived();
-        let Some(buffer) = self.spare.pop() else { return };
-        if self.names.is_empty() {
-            self.spare.push(buffer);
+        if self.names.is_empty() || self.names.len() as u32 > MAX_TIMED {
+            self.latest.clear();
             return;
         }
+        let Some(buffer) = self.spare.pop() else { return };
         let count = 2 * self.names.len() as u32;
         let bytes = u64::from(count) * 8;
         encoder.resolve_query_set(&self.queries, 0..count, &self.resolved, 0);

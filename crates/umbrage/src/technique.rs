@@ -64,6 +64,9 @@ pub struct DebugView<'a> {
     pub layer: u32,
 }
 
+/// Makes a technique from checked settings.
+pub type Make = fn(&Gpu, &Settings) -> Result<Box<dyn Technique>, Error>;
+
 /// Everything the program knows of a technique; one constant in its folder.
 pub struct TechniqueInfo {
     /// What users type.
@@ -87,7 +90,7 @@ pub struct TechniqueInfo {
     /// Its README.
     pub readme: &'static str,
     /// Makes one.
-    pub make: fn(&Gpu, &Settings) -> Result<Box<dyn Technique>, Error>,
+    pub make: Make,
 }
 
 impl std::fmt::Debug for TechniqueInfo {

@@ -173,7 +173,7 @@ impl DepthMaps {
             focus: if settings.choice("focus") == "light" { Focus::Light } else { Focus::Visible },
             border_texels: reach_texels + 1.0,
             every_caster: false,
-            pipelines: Pipelines::new(gpu, faces == "back"),
+            pipelines: Pipelines::new(gpu, faces == "back", faces == "midpoint"),
             textures: None,
             scene: FitScene::default(),
             views: Vec::new(),

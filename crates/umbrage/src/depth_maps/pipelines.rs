@@ -31,15 +31,21 @@ pub(crate) const MIDPOINT_SHADER: Shader =
 /// Pipelines and layouts, made once.
 pub(super) struct Pipelines {
     nearest: [wgpu::RenderPipeline; 2],
-    second: [wgpu::RenderPipeline; 2],
-    midpoint: [wgpu::RenderPipeline; 2],
+    second: Option<SecondPipelines>,
     view_layout: wgpu::BindGroupLayout,
     one_map: wgpu::BindGroupLayout,
     two_maps: wgpu::BindGroupLayout,
 }
 
+/// For `faces = midpoint`.
+struct SecondPipelines {
+    surface: [wgpu::RenderPipeline; 2],
+    /// For parallel and for perspective views.
+    midpoint: [wgpu::RenderPipeline; 2],
+}
+
 impl Pipelines {
-    pub(super) fn new(gpu: &Gpu, back_faces: bool) -> Self {
+    pub(super) fn new(gpu: &Gpu, back_faces: bool, midpoint: bool) -> Self {
         let view_layout = uniform_layout(gpu, wgpu::ShaderStages::VERTEX);
         let one_map = depth_layout(gpu, 1);
         let two_maps = depth_layout(gpu, 2);
@@ -52,26 +58,26 @@ impl Pipelines {
             })
         };
         let cull_mode = back_faces.then_some(wgpu::Face::Front);
-        let depth = DEPTH_SHADER.module(gpu);
-        let draw =
-            |module: &wgpu::ShaderModule, layout: &wgpu::PipelineLayout, vertex: &str, fragment: Option<&str>| {
-                pipeline(gpu, layout, module, vertex, fragment, cull_mode, wgpu::CompareFunction::Greater, &[])
-            };
+        let draw = |module: &wgpu::ShaderModule, layout: &wgpu::PipelineLayout, vertex, fragment| {
+            let compare = wgpu::CompareFunction::Greater;
+            pipeline(gpu, &Recipe { layout, module, vertex, fragment, cull_mode, compare, constants: &[] })
+        };
+        let module = DEPTH_SHADER.module(gpu);
         let plain = layout(&[Some(&view_layout), Some(&casters)]);
         let textured = layout(&[Some(&view_layout), Some(&casters), Some(&textures)]);
-        let nearest = [draw(&depth, &plain, "opaque", None), draw(&depth, &textured, "masked", Some("cut_out"))];
-        let module = SECOND_SHADER.module(gpu);
-        let all = layout(&[Some(&view_layout), Some(&casters), Some(&textures), Some(&one_map)]);
-        let second =
-            [draw(&module, &all, "opaque", Some("second")), draw(&module, &all, "masked", Some("second_cut_out"))];
-        let module = MIDPOINT_SHADER.module(gpu);
-        let both = layout(&[Some(&two_maps)]);
-        let midpoint = [0.0, 1.0].map(|perspective| {
-            let constants = [("PERSPECTIVE", perspective)];
-            let always = wgpu::CompareFunction::Always;
-            pipeline(gpu, &both, &module, "fullscreen", Some("midpoint"), None, always, &constants)
+        let nearest = [draw(&module, &plain, "opaque", None), draw(&module, &textured, "masked", Some("cut_out"))];
+        let second = midpoint.then(|| {
+            let module = SECOND_SHADER.module(gpu);
+            let all = layout(&[Some(&view_layout), Some(&casters), Some(&textures), Some(&one_map)]);
+            SecondPipelines {
+                surface: [
+                    draw(&module, &all, "opaque", Some("second")),
+                    draw(&module, &all, "masked", Some("second_cut_out")),
+                ],
+                midpoint: midpoint_pipelines(gpu, &layout(&[Some(&two_maps)])),
+            }
         });
-        Self { nearest, second, midpoint, view_layout, one_map, two_maps }
+        Self { nearest, second, view_layout, one_map, two_maps }
     }
 
     /// Renders one layer; returns how often the casters were drawn.
@@ -91,15 +97,15 @@ impl Pipelines {
             pass.set_bind_group(0, view_uniform, &[]);
             list.draw(&mut pass, casters, false, |masked| &self.nearest[usize::from(masked)]);
         }
-        let Some(second) = &views.second else { return 1 };
+        let (Some(second), Some(pipelines)) = (&views.second, &self.second) else { return 1 };
         {
             let mut pass = passes.render("second surface", &[], clear(&second.second));
             pass.set_bind_group(0, view_uniform, &[]);
             pass.set_bind_group(3, &second.read_first, &[]);
-            list.draw(&mut pass, casters, true, |masked| &self.second[usize::from(masked)]);
+            list.draw(&mut pass, casters, true, |masked| &pipelines.surface[usize::from(masked)]);
         }
         let mut pass = passes.render("midpoint", &[], clear(&second.midpoint));
-        pass.set_pipeline(&self.midpoint[usize::from(perspective)]);
+        pass.set_pipeline(&pipelines.midpoint[usize::from(perspective)]);
         pass.set_bind_group(0, &second.read_both, &[]);
         pass.draw(0..3, 0..1);
         2
@@ -181,43 +187,60 @@ fn read(gpu: &Gpu, layout: &wgpu::BindGroupLayout, views: &[&wgpu::TextureView])
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("depth maps"), layout, entries: &entries })
 }
 
-fn pipeline(
-    gpu: &Gpu,
-    layout: &wgpu::PipelineLayout,
-    module: &wgpu::ShaderModule,
-    vertex: &str,
-    fragment: Option<&str>,
+fn midpoint_pipelines(gpu: &Gpu, layout: &wgpu::PipelineLayout) -> [wgpu::RenderPipeline; 2] {
+    let module = MIDPOINT_SHADER.module(gpu);
+    [0.0, 1.0].map(|perspective| {
+        let recipe = Recipe {
+            layout,
+            module: &module,
+            vertex: "fullscreen",
+            fragment: Some("midpoint"),
+            cull_mode: None,
+            compare: wgpu::CompareFunction::Always,
+            constants: &[("PERSPECTIVE", perspective)],
+        };
+        pipeline(gpu, &recipe)
+    })
+}
+
+/// What the pipelines of a map differ in.
+struct Recipe<'a> {
+    layout: &'a wgpu::PipelineLayout,
+    module: &'a wgpu::ShaderModule,
+    vertex: &'a str,
+    fragment: Option<&'a str>,
     cull_mode: Option<wgpu::Face>,
     compare: wgpu::CompareFunction,
-    constants: &[(&str, f64)],
-) -> wgpu::RenderPipeline {
-    let buffers = match vertex {
+    constants: &'a [(&'a str, f64)],
+}
+
+fn pipeline(gpu: &Gpu, recipe: &Recipe<'_>) -> wgpu::RenderPipeline {
+    let buffers = match recipe.vertex {
         "fullscreen" => Vec::new(),
         name => vertex_layouts(name == "masked"),
     };
-    let compilation_options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(fragment.unwrap_or(vertex)),
-        layout: Some(layout),
+        label: Some(recipe.fragment.unwrap_or(recipe.vertex)),
+        layout: Some(recipe.layout),
         vertex: wgpu::VertexState {
-            module,
-            entry_point: Some(vertex),
+            module: recipe.module,
+            entry_point: Some(recipe.vertex),
             compilation_options: Default::default(),
             buffers: &buffers,
         },
-        primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
+        primitive: wgpu::PrimitiveState { cull_mode: recipe.cull_mode, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: FORMAT,
             depth_write_enabled: Some(true),
-            depth_compare: Some(compare),
+            depth_compare: Some(recipe.compare),
             stencil: Default::default(),
             bias: Default::default(),
         }),
         multisample: Default::default(),
-        fragment: fragment.map(|entry| wgpu::FragmentState {
-            module,
+        fragment: recipe.fragment.map(|entry| wgpu::FragmentState {
+            module: recipe.module,
             entry_point: Some(entry),
-            compilation_options,
+            compilation_options: wgpu::PipelineCompilationOptions { constants: recipe.constants, ..Default::default() },
             targets: &[],
         }),
         multiview_mask: None,
