@@ -28,8 +28,9 @@ shader_struct! {
     }
 }
 
-/// Bit of `Instance::flags`: shadows fall on it.
+/// Bits of `Instance::flags`: shadows fall on it; it throws shadows.
 const RECEIVES: u32 = 1;
+const CASTS: u32 = 2;
 
 /// Meshes and instances on the GPU.
 pub struct Casters {
@@ -126,7 +127,7 @@ impl Casters {
                 receives: instance.receives,
                 data: Instance {
                     material: instance.material as u32,
-                    flags: if instance.receives { RECEIVES } else { 0 },
+                    flags: u32::from(instance.receives) * RECEIVES + u32::from(instance.casts) * CASTS,
                     model: instance.model as u32,
                     ..rows(&instance.world_from_mesh, origin)
                 },

@@ -29,7 +29,7 @@ pub(crate) fn packed_normals(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image
     let bytes = rows(gpu, texture, 0)?;
     let unpack = |b: &[u8; 4]| {
         let part = |low, high| f32::from(i16::from_le_bytes([low, high])).max(-32767.0) / 32767.0;
-        let (x, y) = (part(b[0], b[1]), part(b[2], b[3]));
+        let (x, y) = (part(b[0] & 0xfe, b[1]), part(b[2], b[3]));
         let z = 1.0 - x.abs() - y.abs();
         let fold = (-z).max(0.0);
         let sign = |v: f32| {

@@ -5,7 +5,7 @@ use crate::gpu::Gpu;
 /// Depth (and normals) of the visible surfaces, made once per size.
 ///
 /// Depth is any sampled depth format with one sample a pixel. Normals are `R32Uint`: the geometric normal in world space,
-/// either side, packed by the function in [`crate::PACK_NORMAL`]. Without them normals come from the depth itself, which
+/// turned to the eye, packed by the function in [`crate::PACK_NORMAL`]. Without them normals come from the depth itself, which
 /// costs a little and is less exact at the edges of surfaces.
 #[derive(Clone, Debug)]
 pub struct Receivers {

@@ -246,10 +246,10 @@ impl Slopes {
         let last = if perspective { rows[3] } else { rows[2] };
         let inverse = DMat3::from_cols(rows[0], rows[1], last).inverse();
         let axis = inverse.row(2);
-        // Any common factor will do: it cancels. The sign for parallel light is that of n · p being constant.
+        // Any common factor will do: it cancels. Its sign makes n · axis positive for a plane that faces the light.
         let scale = 1.0 / axis.length().max(f64::MIN_POSITIVE);
-        let sign = if perspective { scale } else { -scale };
-        Self { right: inverse.row(0) * sign, down: inverse.row(1) * sign, axis: axis * scale }
+        let toward_light = if perspective { -scale } else { scale };
+        Self { right: inverse.row(0) * -scale, down: inverse.row(1) * -scale, axis: axis * toward_light }
     }
 }
 

@@ -55,7 +55,7 @@ fn targets(in: Surface, base: vec4f) -> Targets {
     let shading = select(smooth_normal, -smooth_normal, dot(smooth_normal, geometric) < 0.0);
     let material = materials[instances[in.instance].material];
     return Targets(
-        pack_normal(geometric),
+        pack_normal(geometric, (instances[in.instance].flags & CASTS) != 0u),
         vec4f(shading, select(-material.shininess, material.shininess, (instances[in.instance].flags & RECEIVES) != 0u)),
         vec4f(base.rgb, material.specular),
         vec4f(material.emissive + gbuffer_view.ambient * base.rgb, 1.0),

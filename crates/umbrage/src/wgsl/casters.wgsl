@@ -11,6 +11,7 @@ struct Instance {
 }
 
 const RECEIVES: u32 = 1u;
+const CASTS: u32 = 2u;
 
 @group(1) @binding(0) var<storage, read> instances: array<Instance>;
 

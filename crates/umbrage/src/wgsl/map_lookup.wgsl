@@ -38,6 +38,8 @@ struct MapPoint {
     // Change of depth per texel along the receiver's plane: `along` over `across`, kept apart to spare a division.
     along: vec2f,
     across: f32,
+    // It faces away from the light and throws shadows itself: nothing has to be looked up.
+    is_own_shadow: bool,
     // How much the depth may be off by rounding.
     rounding: f32,
     layer: u32,
@@ -66,12 +68,12 @@ fn face_of_cube(direction: vec3f) -> u32 {
     return select(4u, 5u, direction.z < 0.0);
 }
 
-// For the surface with `normal` (either side, any length) that pixel `at` shows at `depth`.
+// For the surface that pixel `at` shows at `depth`.
 //
 // On a plane with normal n stored depth is linear in the texel, in perspective too, since it is near / distance there.
 // With m = (n · right, n · down, n · axis) the plane is m₀ u + m₁ v + m₂ = c · near / depth in perspective, so that its
 // slope is depth · (m₀, m₁) / (m₀ u + m₁ v + m₂); for parallel light it is (m₀, m₁) / m₂.
-fn map_point(at: vec2f, depth: f32, normal: vec3f) -> MapPoint {
+fn map_point(at: vec2f, depth: f32, surface: Surface) -> MapPoint {
     let ndc = ndc_of(map.eye, at, depth);
     var point: MapPoint;
     point.layer = 0u;
@@ -82,10 +84,10 @@ fn map_point(at: vec2f, depth: f32, normal: vec3f) -> MapPoint {
     let inverse_w = 1.0 / p.w;
     point.texel = p.xy * inverse_w;
     point.depth = p.z * inverse_w;
-    let right = dot(normal, map.layers[point.layer].slope_right);
-    let down = dot(normal, map.layers[point.layer].slope_down);
+    let right = dot(surface.normal, map.layers[point.layer].slope_right);
+    let down = dot(surface.normal, map.layers[point.layer].slope_down);
     point.along = vec2f(right, down);
-    point.across = dot(normal, map.layers[point.layer].slope_axis);
+    point.across = dot(surface.normal, map.layers[point.layer].slope_axis);
     point.is_covered = all(point.texel >= vec2f(0.0)) && all(point.texel < vec2f(map.size));
     var eye_inverse_w = inverse_w;
     if PERSPECTIVE {
@@ -94,6 +96,8 @@ fn map_point(at: vec2f, depth: f32, normal: vec3f) -> MapPoint {
         eye_inverse_w = 1.0 / eye_w(map.eye, ndc);
         point.is_covered = point.is_covered && inverse_w * eye_inverse_w > 0.0;
     }
+    // Positive where the surface faces the light.
+    point.is_own_shadow = surface.casts && point.across <= 0.0;
     let z = abs(point.depth);
     let per_metre = map.per_metre.x * z * z + map.per_metre.y;
     point.rounding = map.rounding.x * z + map.rounding.y + position_rounding(map.eye, depth, eye_inverse_w) * per_metre;

@@ -1,9 +1,12 @@
-// Directions in 32 bits: the octahedron's unfolded faces, 16 bits each way.
+// Directions in 32 bits: the octahedron's unfolded faces, 16 bits each way. The lowest bit is taken for a flag.
 
-fn pack_normal(n: vec3f) -> u32 {
+// `n`: geometric normal in world space, turned to the eye. `casts`: whether the surface throws shadows, so that it is in
+// its own shadow where it faces away from the light.
+fn pack_normal(n: vec3f, casts: bool) -> u32 {
     let flat_normal = n / (abs(n.x) + abs(n.y) + abs(n.z));
     let folded = (1.0 - abs(flat_normal.yx)) * select(vec2f(-1.0), vec2f(1.0), flat_normal.xy >= vec2f(0.0));
-    return pack2x16snorm(select(folded, flat_normal.xy, flat_normal.z >= 0.0));
+    let bits = pack2x16snorm(select(folded, flat_normal.xy, flat_normal.z >= 0.0));
+    return (bits & 0xfffffffeu) | u32(casts);
 }
 
 // Not of unit length: that saves the scaling.

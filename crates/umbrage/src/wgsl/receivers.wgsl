@@ -66,13 +66,20 @@ fn along_surface(eye: Eye, pixel: vec2f, here: vec3f, step: vec2i) -> vec3f {
     return select(before, after, b == 0.0 || (a > 0.0 && a < b));
 }
 
-// Geometric normal with world axes: either side, any length.
-fn normal_world(eye: Eye, pixel: vec2f, depth: f32) -> vec3f {
+struct Surface {
+    // Geometric normal with world axes, turned to the eye, of any length.
+    normal: vec3f,
+    // Whether it throws shadows. Without normals that is not known, and taken to be so.
+    casts: bool,
+}
+
+fn surface(eye: Eye, pixel: vec2f, depth: f32) -> Surface {
     if HAS_NORMALS {
-        return unpack_normal(textureLoad(receiver_normal, vec2i(pixel), 0).x);
+        let bits = textureLoad(receiver_normal, vec2i(pixel), 0).x;
+        return Surface(unpack_normal(bits), (bits & 1u) != 0u);
     }
     let here = position_eye(eye, pixel, depth);
     let across = along_surface(eye, pixel, here, vec2i(1, 0));
     let down = along_surface(eye, pixel, here, vec2i(0, 1));
-    return cross(across, down);
+    return Surface(cross(down, across), true);
 }

@@ -86,6 +86,6 @@ fn brute_force_comes_close_to_the_truth() {
         let s = scores(brute_force(&gpu(), &scene, light, 64, (width, height)), &scene, &stored, Some(&hard));
         let vs_hard = s.vs_hard.unwrap_or(f64::INFINITY);
         println!("{name} light {light}: vs_hard {vs_hard:.3}");
-        assert!(vs_hard <= 0.25, "{name} light {light}: {vs_hard}");
+        assert!(vs_hard <= 0.12, "{name} light {light}: {vs_hard}");
     }
 }

@@ -6,7 +6,10 @@ fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
     if depth == map.eye.background_depth {
         return 1.0;
     }
-    let point = map_point(at.xy, depth, normal_world(map.eye, at.xy, depth));
+    let point = map_point(at.xy, depth, surface(map.eye, at.xy, depth));
+    if point.is_own_shadow {
+        return 0.0;
+    }
     if !point.is_covered {
         return 1.0;
     }

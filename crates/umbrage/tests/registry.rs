@@ -1,0 +1,47 @@
+//! The registry holds together, and each technique's README says what its parameters are. Needs no GPU.
+
+use std::collections::HashSet;
+use umbrage::{Param, ParamKind, find, techniques};
+
+#[test]
+fn ids_are_unique_and_match_their_folders() {
+    let mut seen = HashSet::new();
+    for info in techniques() {
+        assert!(seen.insert(info.id), "{} comes twice", info.id);
+        let folder = format!("{}/src/techniques/{}", env!("CARGO_MANIFEST_DIR"), info.id.replace('-', "_"));
+        for file in ["mod.rs", "README.md"] {
+            assert!(std::path::Path::new(&folder).join(file).is_file(), "{folder}/{file}");
+        }
+        assert_eq!(find(info.id).map(|i| i.id), Ok(info.id));
+    }
+}
+
+fn row(p: &Param) -> String {
+    format!("| `{}` | {} | {} | {} |", p.name, p.kind.range(), p.kind.default(), p.unit).replace(" |  |", " | |")
+}
+
+#[test]
+fn readmes_state_every_parameter() {
+    for info in techniques() {
+        assert!(info.readme.starts_with(&format!("# `{}`", info.id)), "{}: heading", info.id);
+        for p in info.params {
+            assert!(info.readme.contains(&row(p)), "the README of {} lacks the row\n{}", info.id, row(p));
+        }
+    }
+}
+
+#[test]
+fn defaults_are_in_range_and_words_are_not_empty() {
+    for info in techniques() {
+        assert!(!info.title.is_empty() && !info.summary.is_empty() && !info.source.is_empty());
+        let mut names = HashSet::new();
+        for p in info.params {
+            assert!(names.insert(p.name) && !p.help.is_empty(), "{} {}", info.id, p.name);
+            let set = [(p.name.to_string(), p.kind.default().to_string())];
+            assert!(info.settings(&set).is_ok(), "{} {}: the default is not allowed", info.id, p.name);
+            if let ParamKind::Choice { values } = p.kind {
+                assert!(!values.is_empty());
+            }
+        }
+    }
+}
