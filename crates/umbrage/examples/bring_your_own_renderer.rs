@@ -15,7 +15,12 @@ const SIZE: (u32, u32) = (640, 480);
 /// The host's own depth pass: it knows nothing of umbrage.
 const HOST_SHADER: &str = "@vertex fn vertex(@location(0) clip: vec4f) -> @builtin(position) vec4f { return clip; }";
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub fn main() -> Result<(), Box<dyn std::error::Error>> {
+    frames(4).map(|_| ())
+}
+
+/// Renders frames and returns the visibility of the last one.
+pub fn frames(count: u32) -> Result<umbrage::core::Image<f32>, Box<dyn std::error::Error>> {
     // The host's device and depth buffer.
     let (device, queue) = pollster::block_on(async {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
@@ -52,7 +57,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut technique = info.make(&gpu, &info.settings(&[("kernel".into(), "5".into())])?)?;
     let mut recorder = Recorder::new(&gpu);
 
-    for frame in 0..4 {
+    for frame in 0..count {
         // The host moves things and draws its depth.
         let turned = DAffine3::from_translation(DVec3::Y) * DAffine3::from_rotation_y(0.4 * f64::from(frame));
         scene.instances[1].world_from_mesh = turned;
@@ -70,11 +75,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         queue.submit([encoder.finish()]);
 
         // Now the host would shade with `visibility.view`.
-        let seen = visibility.read(&gpu)?;
-        let mean = seen.data.iter().sum::<f32>() / seen.data.len() as f32;
-        println!("frame {frame}: mean visibility {mean:.4}");
+        let seen = visibility.read(&gpu)?.data;
+        println!("frame {frame}: mean visibility {:.4}", seen.iter().sum::<f32>() / seen.len() as f32);
     }
-    Ok(())
+    Ok(visibility.read(&gpu)?)
 }
 
 /// The host's camera: any view and projection matrices do.

@@ -2,6 +2,7 @@
 
 mod common;
 mod golden;
+mod host;
 mod robust;
 mod shared_references;
 mod steady;
