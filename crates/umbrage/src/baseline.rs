@@ -3,6 +3,7 @@
 use crate::depth_maps::{LOOKUP_LAYOUTS, MapTechnique};
 use crate::{
     error::Error,
+    fullscreen::Fullscreen,
     gpu::Gpu,
     passes::Passes,
     receivers::Receivers,
@@ -28,31 +29,15 @@ const BARE: Shader = Shader {
 /// The floor: one full-screen pass that reads depth and writes visibility. Not a shadow.
 pub fn floor(gpu: &Gpu) -> Box<dyn Technique> {
     let module = FLOOR.module(gpu);
-    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        bind_group_layouts: &[Some(&Receivers::layout(gpu))],
-        ..Default::default()
-    });
-    let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("floor"),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("fullscreen"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: Default::default(),
-        depth_stencil: None,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("visibility"),
-            compilation_options: Default::default(),
-            targets: &[Some(VisibilityTarget::FORMAT.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    });
+    let pipeline = Fullscreen {
+        label: "floor",
+        module: &module,
+        entry: "visibility",
+        groups: &[&Receivers::layout(gpu)],
+        target: VisibilityTarget::FORMAT.into(),
+        constants: &[],
+    }
+    .pipeline(gpu);
     Box::new(Floor { pipeline })
 }
 

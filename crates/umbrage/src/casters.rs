@@ -4,6 +4,7 @@
 //! scene, so that single precision is enough wherever the scene is. A draw is one mesh with a list of instance
 //! numbers as its per-instance vertex buffer: culling writes that list and nothing else.
 
+use crate::fullscreen::{bind, layout};
 use crate::{error::Error, gpu::Gpu, passes::Passes, shader::shader_struct};
 use std::ops::Range;
 use umbrage_core::glam::{DAffine3, DVec3, DVec4};
@@ -146,34 +147,20 @@ impl Casters {
         let instances = gpu.buffer("instances", &data, Usage::STORAGE | Usage::COPY_DST);
         let materials = gpu.buffer("materials", &material::all(scene), Usage::STORAGE);
         let bytes = [&positions, &attributes, &indices, &instances, &materials].iter().map(|b| b.size()).sum();
-        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("casters"),
-            layout: &Self::layout(gpu),
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: instances.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: materials.as_entire_binding() },
-            ],
-        });
+        let buffers = [instances.as_entire_binding(), materials.as_entire_binding()];
+        let bind_group = bind(gpu, "casters", &Self::layout(gpu), &buffers);
         let textures = material::textures(gpu, scene)?;
         Ok(Self { origin, bind_group, positions, attributes, indices, instances, textures, batches, placed, bytes })
     }
 
     /// Layout of the bind group that `wgsl/casters.wgsl` declares as group 1.
     pub(crate) fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-        let storage = |binding| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: true },
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
+        let storage = wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset: false,
+            min_binding_size: None,
         };
-        gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("casters"),
-            entries: &[storage(0), storage(1)],
-        })
+        layout(gpu, "casters", wgpu::ShaderStages::VERTEX_FRAGMENT, &[storage, storage])
     }
 
     /// Moves an instance (by its place in [`Scene::instances`]); one small upload, nothing is rebuilt.

@@ -31,6 +31,7 @@ pub mod baseline;
 mod casters;
 mod depth_maps;
 mod error;
+mod fullscreen;
 mod gpu;
 mod light_samples;
 mod params;

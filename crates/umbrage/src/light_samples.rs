@@ -3,6 +3,7 @@
 
 use crate::{
     error::Error,
+    fullscreen::{self, FLOATS, Fullscreen, additive, attachment, bind, layout},
     gpu::Gpu,
     params::Settings,
     passes::Passes,
@@ -67,19 +68,7 @@ struct Targets {
 impl LightSamples {
     fn new(gpu: &Gpu, inner: Box<dyn Technique>, samples: u32) -> Self {
         let module = SHADER.module(gpu);
-        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("visibility"),
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::FRAGMENT,
-                ty: wgpu::BindingType::Texture {
-                    sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                    view_dimension: wgpu::TextureViewDimension::D2,
-                    multisampled: false,
-                },
-                count: None,
-            }],
-        });
+        let layout = layout(gpu, "visibility", wgpu::ShaderStages::FRAGMENT, &[fullscreen::texture(FLOATS)]);
         let add = pipeline(gpu, &module, &layout, "add", &[]);
         let gpu = gpu.clone();
         Self {
@@ -100,14 +89,7 @@ impl LightSamples {
         let one = VisibilityTarget::new(&self.gpu, width, height)?;
         let sum = VisibilityTarget::new(&self.gpu, width, height)?;
         let read = |target: &VisibilityTarget| {
-            self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("visibility"),
-                layout: &self.layout,
-                entries: &[wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: wgpu::BindingResource::TextureView(&target.view),
-                }],
-            })
+            bind(&self.gpu, "visibility", &self.layout, &[wgpu::BindingResource::TextureView(&target.view)])
         };
         let (read_one, read_sum) = (read(&one), read(&sum));
         Ok(Targets { one, sum, read_one, read_sum })
@@ -173,13 +155,7 @@ fn draw(
     target: &wgpu::TextureView,
     load: wgpu::LoadOp<wgpu::Color>,
 ) {
-    let attachment = wgpu::RenderPassColorAttachment {
-        view: target,
-        depth_slice: None,
-        resolve_target: None,
-        ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
-    };
-    let mut pass = passes.render(label, &[Some(attachment)], None);
+    let mut pass = passes.render(label, &[attachment(target, load)], None);
     pass.set_pipeline(pipeline);
     pass.set_bind_group(0, read, &[]);
     pass.draw(0..3, 0..1);
@@ -192,39 +168,7 @@ fn pipeline(
     entry: &str,
     constants: &[(&str, f64)],
 ) -> wgpu::RenderPipeline {
-    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        bind_group_layouts: &[Some(layout)],
-        ..Default::default()
-    });
-    let one = wgpu::BlendComponent {
-        src_factor: wgpu::BlendFactor::One,
-        dst_factor: wgpu::BlendFactor::One,
-        operation: wgpu::BlendOperation::Add,
-    };
-    let adds = entry == "add";
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(entry),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("fullscreen"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: Default::default(),
-        depth_stencil: None,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some(entry),
-            compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
-            targets: &[Some(wgpu::ColorTargetState {
-                format: VisibilityTarget::FORMAT,
-                blend: adds.then_some(wgpu::BlendState { color: one, alpha: one }),
-                write_mask: wgpu::ColorWrites::ALL,
-            })],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    let format = VisibilityTarget::FORMAT;
+    let target = if entry == "add" { additive(format) } else { format.into() };
+    Fullscreen { label: entry, module, entry, groups: &[layout], target, constants }.pipeline(gpu)
 }

@@ -1,5 +1,6 @@
 //! What shadows fall on: the depth buffer of the view, and normals where the host has them.
 
+use crate::fullscreen::{self, bind};
 use crate::gpu::Gpu;
 
 /// Depth (and normals) of the visible surfaces, made once per size.
@@ -26,46 +27,20 @@ impl Receivers {
                 &none
             }
         };
-        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("receivers"),
-            layout: &Self::layout(gpu),
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(depth) },
-                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(normal_view) },
-            ],
-        });
+        let views = [depth, normal_view].map(wgpu::BindingResource::TextureView);
+        let bind_group = bind(gpu, "receivers", &Self::layout(gpu), &views);
         Self { size, has_normals: normal.is_some(), bind_group }
     }
 
     /// Layout of the bind group that `wgsl/receivers.wgsl` declares as group 0.
     pub(crate) fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-        let texture = |binding, sample_type| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Texture {
-                sample_type,
-                view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled: false,
-            },
-            count: None,
-        };
-        gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("receivers"),
-            entries: &[texture(0, wgpu::TextureSampleType::Depth), texture(1, wgpu::TextureSampleType::Uint)],
-        })
+        let bindings = [wgpu::TextureSampleType::Depth, wgpu::TextureSampleType::Uint].map(fullscreen::texture);
+        let stages = wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE;
+        fullscreen::layout(gpu, "receivers", stages, &bindings)
     }
 }
 
 fn placeholder(gpu: &Gpu) -> wgpu::TextureView {
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("no normals"),
-        size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::R32Uint,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    });
+    let texture = fullscreen::target_texture(gpu, "no normals", (1, 1), 1, wgpu::TextureFormat::R32Uint);
     texture.create_view(&Default::default())
 }

@@ -6,6 +6,8 @@ use crate::gpu::Gpu;
 pub const FULLSCREEN: &str = include_str!("wgsl/fullscreen.wgsl");
 /// `wgsl/receivers.wgsl`: group 0, the visible surfaces.
 pub const RECEIVERS: &str = concat!(include_str!("wgsl/pack_normal.wgsl"), include_str!("wgsl/receivers.wgsl"));
+/// `wgsl/map_visibility.wgsl`: the full-screen pass around a technique's `lit_share`. After [`MAP_LOOKUP`].
+pub const MAP_VISIBILITY: &str = include_str!("wgsl/map_visibility.wgsl");
 /// `wgsl/pack_normal.wgsl`: how a host packs the normals of [`crate::Receivers`], `pack_normal(normal, casts) -> u32`.
 pub const PACK_NORMAL: &str = include_str!("wgsl/pack_normal.wgsl");
 /// `wgsl/map_lookup.wgsl`: group 1, where a receiver lies in the maps of a light. After [`RECEIVERS`].

@@ -1,5 +1,6 @@
 //! The visibility buffer: the one thing every technique writes.
 
+use crate::fullscreen::{attachment, target_texture};
 use crate::{error::Error, gpu::Gpu, read};
 use umbrage_core::Image;
 
@@ -24,39 +25,14 @@ impl VisibilityTarget {
     /// [`Error::Size`] for a size of 0 or beyond the adapter's limit.
     pub fn new(gpu: &Gpu, width: u32, height: u32) -> Result<Self, Error> {
         gpu.check_size("a visibility target", width, height)?;
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("visibility"),
-            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: Self::FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                | wgpu::TextureUsages::TEXTURE_BINDING
-                | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
+        let texture = target_texture(gpu, "visibility", (width, height), 1, Self::FORMAT);
         let view = texture.create_view(&Default::default());
         Ok(Self { texture, view, size: (width, height) })
     }
 
     /// A colour attachment that keeps what a full-screen pass leaves; nothing of the old content is read.
     pub fn overwrite(&self) -> Option<wgpu::RenderPassColorAttachment<'_>> {
-        self.attachment(wgpu::LoadOp::Clear(wgpu::Color::WHITE))
-    }
-
-    /// A colour attachment that keeps the old content to blend with.
-    pub fn keep(&self) -> Option<wgpu::RenderPassColorAttachment<'_>> {
-        self.attachment(wgpu::LoadOp::Load)
-    }
-
-    fn attachment(&self, load: wgpu::LoadOp<wgpu::Color>) -> Option<wgpu::RenderPassColorAttachment<'_>> {
-        Some(wgpu::RenderPassColorAttachment {
-            view: &self.view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
-        })
+        attachment(&self.view, wgpu::LoadOp::Clear(wgpu::Color::WHITE))
     }
 
     /// The values, read back: for files and tests, since it waits for the GPU.

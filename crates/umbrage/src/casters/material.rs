@@ -1,5 +1,6 @@
 //! Materials and textures on the GPU.
 
+use crate::fullscreen::{self, bind, layout};
 use crate::{error::Error, gpu::Gpu, shader::shader_struct};
 use umbrage_core::{Scene, Texture};
 use wgpu::util::DeviceExt;
@@ -66,40 +67,14 @@ fn bind_group(gpu: &Gpu, texture: &Texture, sampler: &wgpu::Sampler) -> Result<w
     };
     let data = texture.rgba.as_flattened();
     let on_gpu = gpu.device.create_texture_with_data(&gpu.queue, &descriptor, Default::default(), data);
-    Ok(gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some(&texture.name),
-        layout: &texture_layout(gpu),
-        entries: &[
-            wgpu::BindGroupEntry {
-                binding: 0,
-                resource: wgpu::BindingResource::TextureView(&on_gpu.create_view(&Default::default())),
-            },
-            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(sampler) },
-        ],
-    }))
+    let view = on_gpu.create_view(&Default::default());
+    let resources = [wgpu::BindingResource::TextureView(&view), wgpu::BindingResource::Sampler(sampler)];
+    Ok(bind(gpu, &texture.name, &texture_layout(gpu), &resources))
 }
 
 /// Layout of the bind group that `wgsl/materials.wgsl` declares as group 2.
 pub(crate) fn texture_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("base colour"),
-        entries: &[
-            wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::FRAGMENT,
-                ty: wgpu::BindingType::Texture {
-                    sample_type: wgpu::TextureSampleType::Float { filterable: true },
-                    view_dimension: wgpu::TextureViewDimension::D2,
-                    multisampled: false,
-                },
-                count: None,
-            },
-            wgpu::BindGroupLayoutEntry {
-                binding: 1,
-                visibility: wgpu::ShaderStages::FRAGMENT,
-                ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
-                count: None,
-            },
-        ],
-    })
+    let filtered = fullscreen::texture(wgpu::TextureSampleType::Float { filterable: true });
+    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+    layout(gpu, "base colour", wgpu::ShaderStages::FRAGMENT, &[filtered, sampler])
 }

@@ -2,6 +2,7 @@
 
 use super::DepthMaps;
 use crate::{
+    fullscreen::{Fullscreen, UNIFORM, bind, layout},
     gpu::Gpu,
     passes::Passes,
     receivers::Receivers,
@@ -95,7 +96,7 @@ impl Lookup {
             module: shader.module(gpu),
             constants: constants.to_vec(),
             bias,
-            layout: layout(gpu),
+            layout: lookup_layout(gpu),
             pipelines: Vec::new(),
             uniforms: gpu.buffer(
                 "map lookup",
@@ -188,31 +189,15 @@ impl Lookup {
         constants.push(("PERSPECTIVE", on(variant.perspective)));
         constants.push(("CUBE", on(variant.cube)));
         constants.push(("HAS_NORMALS", on(variant.has_normals)));
-        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &[Some(&Receivers::layout(gpu)), Some(&self.layout)],
-            ..Default::default()
-        });
-        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("map lookup"),
-            layout: Some(&layout),
-            vertex: wgpu::VertexState {
-                module: &self.module,
-                entry_point: Some("fullscreen"),
-                compilation_options: Default::default(),
-                buffers: &[],
-            },
-            primitive: Default::default(),
-            depth_stencil: None,
-            multisample: Default::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &self.module,
-                entry_point: Some("visibility"),
-                compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
-                targets: &[Some(VisibilityTarget::FORMAT.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
+        Fullscreen {
+            label: "map lookup",
+            module: &self.module,
+            entry: "visibility",
+            groups: &[&Receivers::layout(gpu), &self.layout],
+            target: VisibilityTarget::FORMAT.into(),
+            constants: &constants,
+        }
+        .pipeline(gpu)
     }
 
     fn bind(&self, gpu: &Gpu, maps: &wgpu::Texture) -> wgpu::BindGroup {
@@ -220,15 +205,12 @@ impl Lookup {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()
         });
-        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("map lookup"),
-            layout: &self.layout,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: self.uniforms.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&view) },
-                wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&self.sampler) },
-            ],
-        })
+        let resources = [
+            self.uniforms.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&view),
+            wgpu::BindingResource::Sampler(&self.sampler),
+        ];
+        bind(gpu, "map lookup", &self.layout, &resources)
     }
 }
 
@@ -276,22 +258,12 @@ fn per_metre(maps: &DepthMaps) -> [f32; 2] {
     if maps.is_perspective(view) { [(1.0 / depth.w) as f32, 0.0] } else { [0.0, depth.truncate().length() as f32] }
 }
 
-fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let entry =
-        |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::FRAGMENT, ty, count: None };
-    let uniform = wgpu::BindingType::Buffer {
-        ty: wgpu::BufferBindingType::Uniform,
-        has_dynamic_offset: false,
-        min_binding_size: None,
-    };
+fn lookup_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     let maps = wgpu::BindingType::Texture {
         sample_type: wgpu::TextureSampleType::Depth,
         view_dimension: wgpu::TextureViewDimension::D2Array,
         multisampled: false,
     };
     let compare = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("map lookup"),
-        entries: &[entry(0, uniform), entry(1, maps), entry(2, compare)],
-    })
+    layout(gpu, "map lookup", wgpu::ShaderStages::FRAGMENT, &[UNIFORM, maps, compare])
 }

@@ -7,6 +7,7 @@ mod pipelines;
 use crate::{
     casters::{self, Casters, DrawList, Which},
     error::Error,
+    fullscreen::target_texture,
     gpu::Gpu,
     params::{Param, ParamKind, Settings},
     passes::Passes,
@@ -274,20 +275,7 @@ struct SecondViews {
 
 impl Textures {
     fn new(gpu: &Gpu, pipelines: &Pipelines, size: u32, layers: u32, midpoint: bool) -> Self {
-        let texture = |label| {
-            gpu.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: layers },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format: FORMAT,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                    | wgpu::TextureUsages::TEXTURE_BINDING
-                    | wgpu::TextureUsages::COPY_SRC,
-                view_formats: &[],
-            })
-        };
+        let texture = |label| target_texture(gpu, label, (size, size), layers, FORMAT);
         let layer_view = |texture: &wgpu::Texture, layer| {
             texture.create_view(&wgpu::TextureViewDescriptor {
                 dimension: Some(wgpu::TextureViewDimension::D2),

@@ -2,6 +2,7 @@
 
 use super::{FORMAT, MapView, Textures};
 use crate::casters::{CASTERS_WGSL, Casters, DrawList, MATERIALS_WGSL, texture_layout, vertex_layouts};
+use crate::fullscreen::{self, UNIFORM, bind, layout};
 use crate::shader::{FULLSCREEN, Shader};
 use crate::{gpu::Gpu, passes::Passes};
 
@@ -46,12 +47,12 @@ struct SecondPipelines {
 
 impl Pipelines {
     pub(super) fn new(gpu: &Gpu, back_faces: bool, midpoint: bool) -> Self {
-        let view_layout = uniform_layout(gpu, wgpu::ShaderStages::VERTEX);
+        let view_layout = layout(gpu, "map view", wgpu::ShaderStages::VERTEX, &[UNIFORM]);
         let one_map = depth_layout(gpu, 1);
         let two_maps = depth_layout(gpu, 2);
         let casters = Casters::layout(gpu);
         let textures = texture_layout(gpu);
-        let layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
+        let pipeline_layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
             gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 bind_group_layouts: groups,
                 ..Default::default()
@@ -63,18 +64,18 @@ impl Pipelines {
             pipeline(gpu, &Recipe { layout, module, vertex, fragment, cull_mode, compare, constants: &[] })
         };
         let module = DEPTH_SHADER.module(gpu);
-        let plain = layout(&[Some(&view_layout), Some(&casters)]);
-        let textured = layout(&[Some(&view_layout), Some(&casters), Some(&textures)]);
+        let plain = pipeline_layout(&[Some(&view_layout), Some(&casters)]);
+        let textured = pipeline_layout(&[Some(&view_layout), Some(&casters), Some(&textures)]);
         let nearest = [draw(&module, &plain, "opaque", None), draw(&module, &textured, "masked", Some("cut_out"))];
         let second = midpoint.then(|| {
             let module = SECOND_SHADER.module(gpu);
-            let all = layout(&[Some(&view_layout), Some(&casters), Some(&textures), Some(&one_map)]);
+            let all = pipeline_layout(&[Some(&view_layout), Some(&casters), Some(&textures), Some(&one_map)]);
             SecondPipelines {
                 surface: [
                     draw(&module, &all, "opaque", Some("second")),
                     draw(&module, &all, "masked", Some("second_cut_out")),
                 ],
-                midpoint: midpoint_pipelines(gpu, &layout(&[Some(&two_maps)])),
+                midpoint: midpoint_pipelines(gpu, &pipeline_layout(&[Some(&two_maps)])),
             }
         });
         Self { nearest, second, view_layout, one_map, two_maps }
@@ -114,11 +115,7 @@ impl Pipelines {
     pub(super) fn view_uniform(&self, gpu: &Gpu) -> (wgpu::Buffer, wgpu::BindGroup) {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let buffer = gpu.buffer("map view", &[MapView::default()], usage);
-        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("map view"),
-            layout: &self.view_layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
-        });
+        let bind_group = bind(gpu, "map view", &self.view_layout, &[buffer.as_entire_binding()]);
         (buffer, bind_group)
     }
 
@@ -145,46 +142,15 @@ fn clear(view: &wgpu::TextureView) -> Option<wgpu::RenderPassDepthStencilAttachm
     })
 }
 
-/// A layout of one uniform buffer.
-pub(super) fn uniform_layout(gpu: &Gpu, visibility: wgpu::ShaderStages) -> wgpu::BindGroupLayout {
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("uniform"),
-        entries: &[wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Uniform,
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        }],
-    })
-}
-
-fn depth_layout(gpu: &Gpu, count: u32) -> wgpu::BindGroupLayout {
-    let entries: Vec<_> = (0..count)
-        .map(|binding| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::FRAGMENT,
-            ty: wgpu::BindingType::Texture {
-                sample_type: wgpu::TextureSampleType::Depth,
-                view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled: false,
-            },
-            count: None,
-        })
-        .collect();
-    gpu.device
-        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("depth maps"), entries: &entries })
+/// A layout of so many depth textures.
+fn depth_layout(gpu: &Gpu, count: usize) -> wgpu::BindGroupLayout {
+    let depth = fullscreen::texture(wgpu::TextureSampleType::Depth);
+    layout(gpu, "depth maps", wgpu::ShaderStages::FRAGMENT, &vec![depth; count])
 }
 
 fn read(gpu: &Gpu, layout: &wgpu::BindGroupLayout, views: &[&wgpu::TextureView]) -> wgpu::BindGroup {
-    let entries: Vec<_> = (0..)
-        .zip(views)
-        .map(|(binding, view)| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) })
-        .collect();
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("depth maps"), layout, entries: &entries })
+    let resources: Vec<_> = views.iter().map(|view| wgpu::BindingResource::TextureView(view)).collect();
+    bind(gpu, "depth maps", layout, &resources)
 }
 
 fn midpoint_pipelines(gpu: &Gpu, layout: &wgpu::PipelineLayout) -> [wgpu::RenderPipeline; 2] {

@@ -2,6 +2,7 @@
 
 use crate::casters::{CASTERS_WGSL, Casters, DrawList, Instance, MATERIAL_LAYOUT, MATERIALS_WGSL, Which};
 use crate::casters::{texture_layout, vertex_layouts};
+use crate::fullscreen::{UNIFORM, attachment, bind, layout, target_texture};
 use crate::{gpu::Gpu, passes::Passes, shader::PACK_NORMAL, shader::Shader, shader::shader_struct};
 use umbrage_core::glam::DMat4;
 use umbrage_core::{CameraView, Frustum};
@@ -48,43 +49,14 @@ pub(super) struct GBuffer {
 
 impl GBuffer {
     pub(super) fn new(gpu: &Gpu, width: u32, height: u32) -> Self {
-        let texture = |label, format| {
-            gpu.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                    | wgpu::TextureUsages::TEXTURE_BINDING
-                    | wgpu::TextureUsages::COPY_SRC,
-                view_formats: &[],
-            })
-        };
+        let texture = |label, format| target_texture(gpu, label, (width, height), 1, format);
         let depth = texture("depth", wgpu::TextureFormat::Depth32Float);
         let normal = texture("geometric normal", PACKED);
         let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
-        let view_layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("camera"),
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-                ty: wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Uniform,
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-                count: None,
-            }],
-        });
+        let view_layout = layout(gpu, "camera", wgpu::ShaderStages::VERTEX_FRAGMENT, &[UNIFORM]);
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniforms = gpu.buffer("camera", &[GBufferView::default()], usage);
-        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("camera"),
-            layout: &view_layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniforms.as_entire_binding() }],
-        });
+        let bind_group = bind(gpu, "camera", &view_layout, &[uniforms.as_entire_binding()]);
         Self {
             depth_view: view(&depth),
             depth,
@@ -118,17 +90,7 @@ impl GBuffer {
             ..GBufferView::default()
         };
         passes.upload(&self.uniforms, bytemuck::bytes_of(&data));
-        let clear = |view| {
-            Some(wgpu::RenderPassColorAttachment {
-                view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
-            })
-        };
+        let clear = |view| attachment(view, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: &self.depth_view,
             depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),

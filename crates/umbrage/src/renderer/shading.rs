@@ -2,6 +2,8 @@
 
 use super::gbuffer::GBuffer;
 use crate::depth_maps::Eye;
+use crate::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout};
+use crate::receivers::Receivers;
 use crate::shader::{FULLSCREEN, RECEIVERS, Shader, shader_struct};
 use crate::{gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
 use umbrage_core::{LightShape, glam::DVec3};
@@ -46,69 +48,36 @@ pub(super) struct Slot {
 
 impl Shading {
     pub(super) fn new(gpu: &Gpu, gbuffer: &GBuffer) -> Self {
-        let texture = |binding| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::FRAGMENT,
-            ty: wgpu::BindingType::Texture {
-                sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled: false,
-            },
-            count: None,
-        };
-        let uniform = wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::FRAGMENT,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Uniform,
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        };
-        let group = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
-            gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries })
-        };
-        let surface_layout = group("surface", &[texture(0), texture(1)]);
-        let light_layout = group("light", &[uniform, texture(1)]);
-        let surface = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("surface"),
-            layout: &surface_layout,
-            entries: &[
-                wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: wgpu::BindingResource::TextureView(&gbuffer.shading_view),
-                },
-                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&gbuffer.color_view) },
-            ],
-        });
-        let pipeline = pipeline(gpu, &surface_layout, &light_layout);
+        let stage = wgpu::ShaderStages::FRAGMENT;
+        let floats = fullscreen::texture(FLOATS);
+        let surface_layout = layout(gpu, "surface", stage, &[floats, floats]);
+        let light_layout = layout(gpu, "light", stage, &[UNIFORM, floats]);
+        let surface = [&gbuffer.shading_view, &gbuffer.color_view].map(wgpu::BindingResource::TextureView);
+        let surface = bind(gpu, "surface", &surface_layout, &surface);
+        let pipeline = Fullscreen {
+            label: "shading",
+            module: &SHADER.module(gpu),
+            entry: "shade",
+            groups: &[&Receivers::layout(gpu), &surface_layout, &light_layout],
+            target: additive(wgpu::TextureFormat::Rgba16Float),
+            constants: &[],
+        }
+        .pipeline(gpu);
         Self { pipeline, surface, light_layout }
     }
 
     pub(super) fn slot(&self, gpu: &Gpu, visibility: &VisibilityTarget) -> Slot {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniforms = gpu.buffer("light", &[ShadingLight::default()], usage);
-        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("light"),
-            layout: &self.light_layout,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: uniforms.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&visibility.view) },
-            ],
-        });
+        let visibility = wgpu::BindingResource::TextureView(&visibility.view);
+        let bind_group = bind(gpu, "light", &self.light_layout, &[uniforms.as_entire_binding(), visibility]);
         Slot { uniforms, bind_group }
     }
 
     pub(super) fn record(&self, passes: &mut Passes<'_>, gbuffer: &GBuffer, view: &View<'_>, slot: &Slot) {
         passes.upload(&slot.uniforms, bytemuck::bytes_of(&light_uniforms(view)));
-        let target = wgpu::RenderPassColorAttachment {
-            view: &gbuffer.radiance_view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
-        };
-        let mut pass = passes.render("light", &[Some(target)], None);
+        let target = attachment(&gbuffer.radiance_view, wgpu::LoadOp::Load);
+        let mut pass = passes.render("light", &[target], None);
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &view.receivers.bind_group, &[]);
         pass.set_bind_group(1, &self.surface, &[]);
@@ -139,42 +108,4 @@ fn light_uniforms(view: &View<'_>) -> ShadingLight {
         direction: direction.as_vec3().to_array(),
         outer_cos,
     }
-}
-
-fn pipeline(gpu: &Gpu, surface: &wgpu::BindGroupLayout, light: &wgpu::BindGroupLayout) -> wgpu::RenderPipeline {
-    let module = SHADER.module(gpu);
-    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        bind_group_layouts: &[Some(&crate::receivers::Receivers::layout(gpu)), Some(surface), Some(light)],
-        ..Default::default()
-    });
-    let add = wgpu::BlendComponent {
-        src_factor: wgpu::BlendFactor::One,
-        dst_factor: wgpu::BlendFactor::One,
-        operation: wgpu::BlendOperation::Add,
-    };
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("shading"),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("fullscreen"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: Default::default(),
-        depth_stencil: None,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("shade"),
-            compilation_options: Default::default(),
-            targets: &[Some(wgpu::ColorTargetState {
-                format: wgpu::TextureFormat::Rgba16Float,
-                blend: Some(wgpu::BlendState { color: add, alpha: add }),
-                write_mask: wgpu::ColorWrites::COLOR,
-            })],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
 }

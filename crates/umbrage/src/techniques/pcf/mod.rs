@@ -4,10 +4,10 @@
 
 use crate::depth_maps::{BIAS, FACES, FOCUS, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, SHADERS, SIZE};
 use crate::params::{Param, ParamKind};
-use crate::shader::{FULLSCREEN, MAP_LOOKUP, RECEIVERS, Shader};
+use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, RECEIVERS, Shader};
 use crate::technique::TechniqueInfo;
 
-const SHADER: Shader = Shader { name: "pcf", parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, include_str!("pcf.wgsl")], layouts: LOOKUP_LAYOUTS };
+const SHADER: Shader = Shader { name: "pcf", parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, include_str!("pcf.wgsl")], layouts: LOOKUP_LAYOUTS };
 
 const KERNEL: Param = Param {
     name: "kernel",

@@ -44,24 +44,12 @@ fn disc(point: MapPoint, slope: vec2f, at: vec2f, bias: f32) -> f32 {
     return sum / f32(TAPS);
 }
 
-@fragment
-fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
-    let depth = textureLoad(receiver_depth, vec2i(at.xy), 0);
-    if depth == map.eye.background_depth {
-        return 1.0;
-    }
-    let point = map_point(at.xy, depth, surface(map.eye, at.xy, depth));
-    if point.is_own_shadow {
-        return 0.0;
-    }
-    if !point.is_covered {
-        return 1.0;
-    }
-    // Bilinear compares share one reference depth between texels half a texel away from it.
+fn lit_share(point: MapPoint, at: vec2f) -> f32 {
     let slope = map_slope(point);
+    // Bilinear compares share one reference depth between texels half a texel away from it.
     let bias = map_bias(point, slope, 1.0 + CREASE);
     if KERNEL == 0u {
-        return disc(point, slope, at.xy, bias);
+        return disc(point, slope, at, bias);
     }
     if KERNEL == 2u {
         return textureSampleCompareLevel(map_depth, map_compare, point.texel / map.size, point.layer, point.depth + bias);

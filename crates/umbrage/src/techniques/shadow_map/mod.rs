@@ -3,11 +3,11 @@
 //! Sources: Williams 1978; ZA 2.3; SG "Shadow Mapping", "Second Depth Shadow Maps" (midpoint), "Extensions" (focus).
 
 use crate::depth_maps::{BIAS, FACES, FOCUS, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, SHADERS, SIZE};
-use crate::shader::{FULLSCREEN, MAP_LOOKUP, RECEIVERS, Shader};
+use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, RECEIVERS, Shader};
 use crate::technique::TechniqueInfo;
 
 const SHADER: Shader =
-    Shader { name: "shadow-map", parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, include_str!("shadow_map.wgsl")], layouts: LOOKUP_LAYOUTS };
+    Shader { name: "shadow-map", parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, include_str!("shadow_map.wgsl")], layouts: LOOKUP_LAYOUTS };
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {

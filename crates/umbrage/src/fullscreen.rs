@@ -1,0 +1,135 @@
+//! What all full-screen passes share: their pipeline, their textures and the entries of their layouts.
+
+use crate::gpu::Gpu;
+
+/// What full-screen pipelines differ in. The vertex shader is `wgsl/fullscreen.wgsl`.
+pub(crate) struct Fullscreen<'a> {
+    pub(crate) label: &'a str,
+    pub(crate) module: &'a wgpu::ShaderModule,
+    /// The fragment shader.
+    pub(crate) entry: &'a str,
+    /// Bind groups in order.
+    pub(crate) groups: &'a [&'a wgpu::BindGroupLayout],
+    pub(crate) target: wgpu::ColorTargetState,
+    /// Pipeline-overridable constants.
+    pub(crate) constants: &'a [(&'a str, f64)],
+}
+
+impl Fullscreen<'_> {
+    pub(crate) fn pipeline(&self, gpu: &Gpu) -> wgpu::RenderPipeline {
+        let groups: Vec<_> = self.groups.iter().map(|g| Some(*g)).collect();
+        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            bind_group_layouts: &groups,
+            ..Default::default()
+        });
+        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(self.label),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: self.module,
+                entry_point: Some("fullscreen"),
+                compilation_options: Default::default(),
+                buffers: &[],
+            },
+            primitive: Default::default(),
+            depth_stencil: None,
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: self.module,
+                entry_point: Some(self.entry),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: self.constants,
+                    ..Default::default()
+                },
+                targets: &[Some(self.target.clone())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+/// A target that adds what is drawn to what is there.
+pub(crate) fn additive(format: wgpu::TextureFormat) -> wgpu::ColorTargetState {
+    let add = wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Add,
+    };
+    wgpu::ColorTargetState { blend: Some(wgpu::BlendState { color: add, alpha: add }), ..format.into() }
+}
+
+/// A colour attachment over a whole view.
+pub(crate) fn attachment(
+    view: &wgpu::TextureView,
+    load: wgpu::LoadOp<wgpu::Color>,
+) -> Option<wgpu::RenderPassColorAttachment<'_>> {
+    let ops = wgpu::Operations { load, store: wgpu::StoreOp::Store };
+    Some(wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops })
+}
+
+/// A texture to draw into, to read in shaders and to copy from; `layers` over 1 make an array.
+pub(crate) fn target_texture(
+    gpu: &Gpu,
+    label: &str,
+    (width, height): (u32, u32),
+    layers: u32,
+    format: wgpu::TextureFormat,
+) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: layers },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
+}
+
+/// A layout whose bindings are numbered from 0 in order, for the given stages.
+pub(crate) fn layout(
+    gpu: &Gpu,
+    label: &str,
+    visibility: wgpu::ShaderStages,
+    bindings: &[wgpu::BindingType],
+) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = (0..)
+        .zip(bindings)
+        .map(|(binding, ty)| wgpu::BindGroupLayoutEntry { binding, visibility, ty: *ty, count: None })
+        .collect();
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
+}
+
+/// A bind group of such a layout.
+pub(crate) fn bind(
+    gpu: &Gpu,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    resources: &[wgpu::BindingResource<'_>],
+) -> wgpu::BindGroup {
+    let entries: Vec<_> = (0..)
+        .zip(resources)
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() })
+        .collect();
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
+}
+
+/// A two-dimensional texture of this sample type.
+pub(crate) fn texture(sample_type: wgpu::TextureSampleType) -> wgpu::BindingType {
+    let view_dimension = wgpu::TextureViewDimension::D2;
+    wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false }
+}
+
+/// A float texture that is read texel by texel.
+pub(crate) const FLOATS: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { filterable: false };
+
+/// A uniform buffer.
+pub(crate) const UNIFORM: wgpu::BindingType = wgpu::BindingType::Buffer {
+    ty: wgpu::BufferBindingType::Uniform,
+    has_dynamic_offset: false,
+    min_binding_size: None,
+};
