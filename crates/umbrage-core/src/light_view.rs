@@ -58,7 +58,7 @@ const WIDEST: f64 = 1.732;
 const NEAR: f64 = 1e-5;
 
 /// Fits the views of `light`, replacing what is in `views`. None are left where nothing that is seen can be in
-/// shadow. `is_cube` tells whether layers are faces of a cube.
+/// shadow. Returns true where there are views and their layers are faces of a cube.
 pub fn fit(light: &LightShape, camera: &CameraView, scene: &FitScene, fit: &Fit, views: &mut Vec<LightView>) -> bool {
     views.clear();
     let center = light.center();
@@ -90,7 +90,7 @@ pub fn fit(light: &LightShape, camera: &CameraView, scene: &FitScene, fit: &Fit,
             views.push(LightView { clip_from_world, size: fit.size, layer: layer as u32 });
         }
     }
-    true
+    !views.is_empty()
 }
 
 /// Forward and up of the faces of a cube, in the order of the layers.
@@ -389,6 +389,14 @@ mod tests {
         ] {
             fit(&light, &camera, &FitScene::default(), &fit_to, &mut views);
             assert!(views.is_empty());
+        }
+        // All of the scene is behind the camera: no room for six faces has to be made.
+        let away = Camera { eye: DVec3::new(0.0, 6.0, 12.0), target: DVec3::new(0.0, 6.0, 99.0), ..Camera::default() };
+        let position = DVec3::Y * 20.0;
+        let spot = LightShape::Spot { position, direction: DVec3::NEG_Y, inner_angle_deg: 5.0, outer_angle_deg: 6.0 };
+        for light in [LightShape::Point { position }, spot] {
+            let cube = fit(&light, &away.view(4, 3), &scene(), &fit_to, &mut views);
+            assert!(views.is_empty() && !cube, "{light:?}");
         }
     }
 

@@ -49,16 +49,33 @@ impl Texture {
     /// Alpha in 0…1 at texture coordinates `uv` (row 0 is v = 0), bilinear with repetition: the same filter as the
     /// GPU's, so that a cut-out edge lies at the same place for a ray and for a rasteriser.
     pub fn alpha(&self, uv: glam::Vec2) -> f32 {
-        let (w, h) = (self.width as i64, self.height as i64);
-        let (x, y) = (uv.x as f64 * w as f64 - 0.5, uv.y as f64 * h as f64 - 0.5);
+        let (w, h) = (f64::from(self.width), f64::from(self.height));
+        let (x, y) = (f64::from(uv.x) * w - 0.5, f64::from(uv.y) * h - 0.5);
         let (x0, y0) = (x.floor(), y.floor());
         let (fx, fy) = ((x - x0) as f32, (y - y0) as f32);
-        let at = |dx: i64, dy: i64| {
-            let (i, j) = ((x0 as i64 + dx).rem_euclid(w), (y0 as i64 + dy).rem_euclid(h));
-            f32::from(self.rgba[(j * w + i) as usize][3]) / 255.0
+        // Wrapped before they are made integers, which would not hold every float.
+        let wrapped = |c: f64, size: f64| c.rem_euclid(size) as usize;
+        let at = |dx: f64, dy: f64| {
+            let (i, j) = (wrapped(x0 + dx, w), wrapped(y0 + dy, h));
+            f32::from(self.rgba[j * self.width as usize + i][3]) / 255.0
         };
-        let top = at(0, 0) * (1.0 - fx) + at(1, 0) * fx;
-        let bottom = at(0, 1) * (1.0 - fx) + at(1, 1) * fx;
+        let top = at(0.0, 0.0) * (1.0 - fx) + at(1.0, 0.0) * fx;
+        let bottom = at(0.0, 1.0) * (1.0 - fx) + at(1.0, 1.0) * fx;
         top * (1.0 - fy) + bottom * fy
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec2;
+
+    #[test]
+    fn alpha_is_bilinear_and_repeats_however_far_off() {
+        let texture = Texture { name: "two".into(), width: 2, height: 1, rgba: vec![[0, 0, 0, 0], [0, 0, 0, 255]] };
+        for (u, want) in [(0.25, 0.0), (0.75, 1.0), (0.5, 0.5), (0.0, 0.5), (-0.25, 1.0), (7.25, 0.0), (-4.625, 0.25)] {
+            assert_eq!(texture.alpha(Vec2::new(u, 0.3)), want, "u = {u}");
+        }
+        assert!((0.0..=1.0).contains(&texture.alpha(Vec2::new(f32::MAX, f32::MIN))));
     }
 }

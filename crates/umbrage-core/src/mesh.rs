@@ -147,6 +147,8 @@ fn angle_at(corners: [Vec3; 3], k: usize) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::primitive;
+    use glam::DVec3;
 
     #[test]
     fn only_flat_meshes_have_a_plane() {
@@ -155,8 +157,6 @@ mod tests {
         assert_eq!(primitive::cube().plane(), None);
         assert_eq!(Mesh::default().plane(), None);
     }
-    use crate::primitive;
-    use glam::DVec3;
 
     #[test]
     fn generated_normals_of_a_flat_quad_are_its_own() {
