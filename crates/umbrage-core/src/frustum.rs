@@ -7,7 +7,8 @@ use glam::{DMat4, DVec3, DVec4};
 #[derive(Clone, Debug)]
 pub struct Frustum {
     /// Unit normals with the offset in `w`. An infinite far plane is left out.
-    pub planes: Vec<DVec4>,
+    planes: Vec<DVec4>,
+    corners: Vec<DVec3>,
 }
 
 impl Frustum {
@@ -22,7 +23,18 @@ impl Frustum {
                 (length > 1e-12 * p.abs().max_element()).then(|| p / length)
             })
             .collect();
-        Self { planes }
+        Self::bounded_by(planes)
+    }
+
+    /// The part that is in both.
+    pub fn and(mut self, other: &Self) -> Self {
+        self.planes.extend(&other.planes);
+        Self::bounded_by(self.planes)
+    }
+
+    fn bounded_by(planes: Vec<DVec4>) -> Self {
+        let corners = corners(&planes);
+        Self { planes, corners }
     }
 
     /// False only where the box is surely outside.
@@ -70,32 +82,36 @@ impl Frustum {
             points.extend(polygon);
         }
         let inside = bounds.grown(1e-9 * bounds.size().max_element());
-        points.extend(self.corners().into_iter().filter(|p| p.cmpge(inside.min).all() && p.cmple(inside.max).all()));
+        points.extend(self.corners.iter().copied().filter(|p| p.cmpge(inside.min).all() && p.cmple(inside.max).all()));
     }
 
     /// The points where three planes meet inside the volume: eight, or four for an infinite far plane.
-    pub fn corners(&self) -> Vec<DVec3> {
-        let mut corners = Vec::new();
-        let n = self.planes.len();
-        for i in 0..n {
-            for j in i + 1..n {
-                for k in j + 1..n {
-                    let [a, b, c] = [self.planes[i], self.planes[j], self.planes[k]];
-                    let (na, nb, nc) = (a.truncate(), b.truncate(), c.truncate());
-                    let det = na.dot(nb.cross(nc));
-                    if det.abs() < 1e-12 {
-                        continue;
-                    }
-                    let p = -(nb.cross(nc) * a.w + nc.cross(na) * b.w + na.cross(nb) * c.w) / det;
-                    let slack = 1e-9 * (1.0 + p.abs().max_element());
-                    if self.planes.iter().all(|q| q.truncate().dot(p) + q.w >= -slack) {
-                        corners.push(p);
-                    }
+    pub fn corners(&self) -> &[DVec3] {
+        &self.corners
+    }
+}
+
+fn corners(planes: &[DVec4]) -> Vec<DVec3> {
+    let mut corners = Vec::new();
+    let n = planes.len();
+    for i in 0..n {
+        for j in i + 1..n {
+            for k in j + 1..n {
+                let [a, b, c] = [planes[i], planes[j], planes[k]];
+                let (na, nb, nc) = (a.truncate(), b.truncate(), c.truncate());
+                let det = na.dot(nb.cross(nc));
+                if det.abs() < 1e-12 {
+                    continue;
+                }
+                let p = -(nb.cross(nc) * a.w + nc.cross(na) * b.w + na.cross(nb) * c.w) / det;
+                let slack = 1e-9 * (1.0 + p.abs().max_element());
+                if planes.iter().all(|q| q.truncate().dot(p) + q.w >= -slack) {
+                    corners.push(p);
                 }
             }
         }
-        corners
     }
+    corners
 }
 
 /// The part of a convex polygon on the inner side of `plane` (Sutherland–Hodgman).

@@ -11,7 +11,8 @@ pub struct Light {
     pub color: Vec3,
     /// Multiplies `color`.
     pub intensity: f32,
-    /// Constant, linear and quadratic attenuation: light falls by 1 / (c + l·d + q·d²).
+    /// Constant, linear and quadratic attenuation: light falls by 1 / (c + l·d + q·d²), and is
+    /// never stronger than without (PX 2.2.4).
     pub attenuation: Vec3,
     /// No light beyond this distance, metres.
     pub range: Option<f64>,

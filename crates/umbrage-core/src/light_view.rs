@@ -156,8 +156,7 @@ impl Perspective {
     fn visible(&self, camera: &CameraView, receivers: &[Bounds], tangent: f64) -> Option<Rect> {
         let clip_from_world = self.clip_from_world();
         let opening = DMat4::from_scale(DVec3::new(1.0 / tangent, 1.0 / tangent, 1.0)) * clip_from_world;
-        let mut both = Frustum::of(&camera.clip_from_world());
-        both.planes.extend(Frustum::of(&opening).planes);
+        let both = Frustum::of(&camera.clip_from_world()).and(&Frustum::of(&opening));
         let mut points = Vec::new();
         for bounds in receivers {
             both.clip_box(bounds, &mut points);

@@ -61,6 +61,7 @@ impl Technique for Floor {
     }
 
     fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+        visibility.check(view.receivers)?;
         let mut pass = passes.render("floor", &[visibility.overwrite()], None);
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &view.receivers.bind_group, &[]);

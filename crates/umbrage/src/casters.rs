@@ -33,10 +33,10 @@ shader_struct! {
 const RECEIVES: u32 = 1;
 const CASTS: u32 = 2;
 
-/// Meshes and instances on the GPU.
+/// Meshes and instances on the GPU: all that throws shadows, and all that shadows fall on (with `casts` off where it throws
+/// none), since maps are fitted to that.
 pub struct Casters {
-    /// What GPU world space is relative to: the middle of the scene when it was uploaded.
-    pub origin: DVec3,
+    origin: DVec3,
     pub(crate) bind_group: wgpu::BindGroup,
     pub(crate) positions: wgpu::Buffer,
     pub(crate) attributes: wgpu::Buffer,
@@ -163,7 +163,8 @@ impl Casters {
         layout(gpu, "casters", wgpu::ShaderStages::VERTEX_FRAGMENT, &[storage, storage])
     }
 
-    /// Moves an instance (by its place in [`Scene::instances`]); one small upload, nothing is rebuilt.
+    /// Moves an instance (by its place in [`Scene::instances`]); one small upload, nothing is rebuilt. A number that is not
+    /// in the scene changes nothing.
     pub fn move_instance(&mut self, gpu: &Gpu, instance: usize, world_from_mesh: &DAffine3) {
         let Some(placed) = self.placed.iter_mut().find(|p| p.number as usize == instance) else { return };
         placed.bounds = placed.mesh_bounds.transformed(world_from_mesh);
@@ -172,6 +173,11 @@ impl Casters {
         placed.data = Instance { row0, row1, row2, ..placed.data };
         let at = instance as u64 * size_of::<Instance>() as u64;
         gpu.queue.write_buffer(&self.instances, at, bytemuck::bytes_of(&placed.data));
+    }
+
+    /// What GPU world space is relative to: the middle of the scene when it was uploaded.
+    pub fn origin(&self) -> DVec3 {
+        self.origin
     }
 
     /// Number of instances.

@@ -46,7 +46,7 @@ mod view;
 mod visibility;
 
 pub use casters::Casters;
-pub use error::Error;
+pub use error::{Error, nearest};
 pub use gpu::{AdapterSummary, Gpu};
 pub use light_samples::light_samples;
 pub use params::{Param, ParamKind, Settings, Value};

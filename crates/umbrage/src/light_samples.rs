@@ -112,6 +112,7 @@ impl Technique for LightSamples {
     }
 
     fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+        visibility.check(view.receivers)?;
         let (Some(targets), Some((_, mean))) = (&self.targets, &self.mean) else { return Ok(()) };
         let mut stats = Stats::default();
         for (i, light) in self.lights.iter().enumerate() {
@@ -138,6 +139,7 @@ impl Technique for LightSamples {
         self.stats
     }
 
+    /// Those of the last sample; the maps of all are alike in size.
     fn light_views(&self) -> &[LightView] {
         self.inner.light_views()
     }

@@ -11,7 +11,7 @@ use umbrage_core::{LightKind, LightKinds, light_view::LightView};
 /// A frame is `prepare`, then `record`; both with the same view.
 pub trait Technique: Send {
     /// Everything the CPU does for this frame: fits light views, chooses casters, makes room. Creates GPU objects only
-    /// in the first frame or when a size changes.
+    /// in the first frame and when a size or the kind of light changes.
     ///
     /// # Errors
     /// [`Error::Unsupported`] for a light or view that the technique can't do, [`Error::Size`] beyond the limits.

@@ -1,7 +1,7 @@
 //! The visibility buffer: the one thing every technique writes.
 
 use crate::fullscreen::{attachment, target_texture};
-use crate::{error::Error, gpu::Gpu, read};
+use crate::{error::Error, gpu::Gpu, read, receivers::Receivers};
 use umbrage_core::Image;
 
 /// The share of one light that each pixel sees, 0…1, as `R16Float`. PX calls it the LI buffer, SG the V-buffer.
@@ -28,6 +28,20 @@ impl VisibilityTarget {
         let texture = target_texture(gpu, "visibility", (width, height), 1, Self::FORMAT);
         let view = texture.create_view(&Default::default());
         Ok(Self { texture, view, size: (width, height) })
+    }
+
+    /// That the target is as large as the receivers.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] with both sizes.
+    pub fn check(&self, receivers: &Receivers) -> Result<(), Error> {
+        if self.size == receivers.size {
+            return Ok(());
+        }
+        let ((w, h), (x, y)) = (self.size, receivers.size);
+        Err(Error::Scene(format!(
+            "the visibility target is {w}×{h} but the receivers are {x}×{y}; make both of one size"
+        )))
     }
 
     /// A colour attachment that keeps what a full-screen pass leaves; nothing of the old content is read.

@@ -9,7 +9,8 @@ fn ids_are_unique_and_match_their_folders() {
     for info in techniques() {
         assert!(seen.insert(info.id), "{} comes twice", info.id);
         let folder = format!("{}/src/techniques/{}", env!("CARGO_MANIFEST_DIR"), info.id.replace('-', "_"));
-        for file in ["mod.rs", "README.md"] {
+        let pictures = info.readme.split("](").skip(1).filter_map(|link| link.split(')').next());
+        for file in pictures.filter(|link| !link.contains("://")).chain(["mod.rs", "README.md"]) {
             assert!(std::path::Path::new(&folder).join(file).is_file(), "{folder}/{file}");
         }
         assert_eq!(find(info.id).map(|i| i.id), Ok(info.id));

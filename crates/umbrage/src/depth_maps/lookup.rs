@@ -45,7 +45,8 @@ shader_struct! {
         per_metre: [f32; 2],
         size: f32,
         bias: f32,
-        pad: [f32; 2],
+        caster_rounding: f32,
+        pad: f32,
     }
 }
 
@@ -175,6 +176,7 @@ impl Lookup {
             rounding: if self.is_perspective(maps) { [2e-6, 0.0] } else { [0.0, 1e-6] },
             per_metre: per_metre(maps),
             bias: self.bias as f32,
+            caster_rounding: (maps.largest_coordinate(view) * 2.4e-7) as f32,
             ..MapLookup::default()
         }
     }

@@ -71,6 +71,8 @@ shader_struct! {
     /// What the vertex shader of a map needs.
     pub(crate) struct MapView {
         clip_from_world: [[f32; 4]; 4],
+        same: [f32; 2],
+        pad: [f32; 2],
     }
 }
 
@@ -110,6 +112,7 @@ impl Technique for MapTechnique {
     }
 
     fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+        visibility.check(view.receivers)?;
         self.draws = self.maps.record(passes, view.casters);
         self.lookup.record(passes, view.receivers, visibility);
         self.draws += 1;
@@ -190,9 +193,13 @@ impl DepthMaps {
         self.scene.receivers.clear();
         self.scene.receivers.extend(view.casters.receiving_bounds());
         let to_fit = Fit { focus: self.focus, size: self.size, border_texels: self.border_texels };
-        self.is_cube = fit(&view.light.shape, &view.camera, &self.scene, &to_fit, &mut self.views);
+        self.views.clear();
         if !view.light.casts || self.scene.casters.is_empty() {
-            self.views.clear();
+            return Ok(());
+        }
+        self.is_cube = fit(&view.light.shape, &view.camera, &self.scene, &to_fit, &mut self.views);
+        if self.views.is_empty() {
+            return Ok(());
         }
         let layer_count = if self.is_cube { 6 } else { 1 };
         self.layers.resize_with(layer_count.max(self.layers.len()), Layer::default);
@@ -204,11 +211,16 @@ impl DepthMaps {
         let which =
             if self.every_caster { Which::Casting } else { Which::Shadowing(casters::Light { center, receivers }) };
         for light_view in &self.views {
+            let perspective = self.is_perspective(light_view);
             let layer = &mut self.layers[light_view.layer as usize];
             let frustum = Frustum::of(&light_view.clip_from_world);
             layer.list.fill(gpu, view.casters, which, &frustum);
-            let clip_from_world = light_view.clip_from_world * DMat4::from_translation(view.casters.origin);
-            layer.uniform = MapView { clip_from_world: clip_from_world.as_mat4().to_cols_array_2d() };
+            let clip_from_world = light_view.clip_from_world * DMat4::from_translation(view.casters.origin());
+            layer.uniform = MapView {
+                clip_from_world: clip_from_world.as_mat4().to_cols_array_2d(),
+                same: if perspective { [1e-5, 0.0] } else { [0.0, 1e-7] },
+                pad: [0.0; 2],
+            };
         }
         Ok(())
     }
@@ -228,6 +240,15 @@ impl DepthMaps {
         }
         self.triangles = triangles;
         draws
+    }
+
+    /// Largest coordinate that the vertex shader computes with, metres: what rounding goes by.
+    fn largest_coordinate(&self, view: &View<'_>) -> f64 {
+        let origin = view.casters.origin();
+        let around = |b: &Bounds| (b.min - origin).abs().max((b.max - origin).abs()).max_element();
+        let center = view.light.shape.center();
+        let light = (center.truncate() - origin).abs().max_element() * center.w;
+        self.scene.casters.iter().map(around).fold(light, f64::max)
     }
 
     /// True for views from a point.

@@ -47,7 +47,7 @@ struct SecondPipelines {
 
 impl Pipelines {
     pub(super) fn new(gpu: &Gpu, back_faces: bool, midpoint: bool) -> Self {
-        let view_layout = layout(gpu, "map view", wgpu::ShaderStages::VERTEX, &[UNIFORM]);
+        let view_layout = layout(gpu, "map view", wgpu::ShaderStages::VERTEX_FRAGMENT, &[UNIFORM]);
         let one_map = depth_layout(gpu, 1);
         let two_maps = depth_layout(gpu, 2);
         let casters = Casters::layout(gpu);

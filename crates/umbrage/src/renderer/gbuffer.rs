@@ -80,12 +80,12 @@ impl GBuffer {
         camera: &CameraView,
         ambient: [f32; 3],
     ) {
-        let clip_from_world = camera.clip_from_world() * DMat4::from_translation(casters.origin);
+        let clip_from_world = camera.clip_from_world() * DMat4::from_translation(casters.origin());
         self.list.fill(gpu, casters, Which::Visible, &Frustum::of(&camera.clip_from_world()));
         self.list.upload(passes);
         let data = GBufferView {
             clip_from_world: clip_from_world.as_mat4().to_cols_array_2d(),
-            eye: (camera.eye - casters.origin).as_vec3().to_array(),
+            eye: (camera.eye - casters.origin()).as_vec3().to_array(),
             ambient,
             ..GBufferView::default()
         };

@@ -49,9 +49,11 @@ fn vertex(
 fn targets(in: Surface, base: vec4f) -> Targets {
     // The triangle's own normal, from how the position changes over the screen; never along the line of sight.
     let cross_product = cross(dpdx(in.from_eye), dpdy(in.from_eye));
-    let face = cross_product * inverseSqrt(max(dot(cross_product, cross_product), 1e-38));
+    let area = length(cross_product);
+    let face = select(-normalize(in.from_eye), cross_product / area, area > 0.0);
     let geometric = select(face, -face, dot(face, in.from_eye) > 0.0);
-    let smooth_normal = in.normal * inverseSqrt(max(dot(in.normal, in.normal), 1e-38));
+    let steepness = length(in.normal);
+    let smooth_normal = select(geometric, in.normal / steepness, steepness > 0.0);
     let shading = select(smooth_normal, -smooth_normal, dot(smooth_normal, geometric) < 0.0);
     let material = materials[instances[in.instance].material];
     return Targets(

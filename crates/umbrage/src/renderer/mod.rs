@@ -73,6 +73,11 @@ impl Renderer {
         let tonemap = ToneMap::new(gpu, &gbuffer, width, height);
         let textured =
             scene.lights.iter().any(|l| matches!(l.shape, umbrage_core::LightShape::Rect { texture: Some(_), .. }));
+        for (i, pass) in lights.iter().enumerate() {
+            if lights[..i].iter().any(|other| other.light == pass.light) {
+                return Err(Error::Scene(format!("light {} comes in two passes; it would shine twice", pass.light)));
+            }
+        }
         let lights = lights.into_iter().map(|pass| {
             let light = scene.lights.get(pass.light).cloned().ok_or_else(|| {
                 let count = scene.lights.len();
@@ -121,8 +126,8 @@ impl Renderer {
             };
             let start = Instant::now();
             lit.technique.prepare(&self.gpu, &view)?;
-            self.prepare_ms += start.elapsed().as_secs_f64() * 1e3;
             lit.technique.record(&mut passes, &view, &lit.visibility)?;
+            self.prepare_ms += start.elapsed().as_secs_f64() * 1e3;
             passes.owner("shading");
             self.shading.record(&mut passes, &self.gbuffer, &view, &lit.slot);
         }
@@ -146,7 +151,7 @@ impl Renderer {
         self.recorder.times()
     }
 
-    /// CPU time of all techniques' `prepare` in the last frame, milliseconds.
+    /// CPU time of all techniques in the last frame, preparing and recording, milliseconds.
     pub fn prepare_ms(&self) -> f64 {
         self.prepare_ms
     }

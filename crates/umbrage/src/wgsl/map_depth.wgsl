@@ -2,12 +2,15 @@
 
 struct MapView {
     clip_from_world: mat4x4f,
+    // How much nearer depths may be and still count as the same: relative, and absolute.
+    same: vec2f,
+    pad: vec2f,
 }
 
 @group(0) @binding(0) var<uniform> map_view: MapView;
 
 struct Masked {
-    @builtin(position) position: vec4f,
+    @invariant @builtin(position) position: vec4f,
     @location(0) uv: vec2f,
     @location(1) @interpolate(flat) material: u32,
 }
@@ -17,7 +20,7 @@ fn map_position(instance: u32, position: vec3f) -> vec4f {
 }
 
 @vertex
-fn opaque(@location(0) position: vec3f, @location(1) instance: u32) -> @builtin(position) vec4f {
+fn opaque(@location(0) position: vec3f, @location(1) instance: u32) -> @invariant @builtin(position) vec4f {
     return map_position(instance, position);
 }
 

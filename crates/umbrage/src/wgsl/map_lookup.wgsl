@@ -27,7 +27,9 @@ struct MapLookup {
     size: f32,
     // Multiplies the automatic bias.
     bias: f32,
-    pad: vec2f,
+    // How far casters may be off by rounding, metres.
+    caster_rounding: f32,
+    pad: f32,
 }
 
 struct MapPoint {
@@ -88,25 +90,28 @@ fn map_point(at: vec2f, depth: f32, surface: Surface) -> MapPoint {
     let down = dot(surface.normal, map.layers[point.layer].slope_down);
     point.along = vec2f(right, down);
     point.across = dot(surface.normal, map.layers[point.layer].slope_axis);
-    point.is_covered = all(point.texel >= vec2f(0.0)) && all(point.texel < vec2f(map.size));
+    var is_in_front = true;
     var eye_inverse_w = inverse_w;
     if PERSPECTIVE {
         point.across += dot(point.along, point.texel);
         point.along *= point.depth;
         eye_inverse_w = 1.0 / eye_w(map.eye, ndc);
-        point.is_covered = point.is_covered && inverse_w * eye_inverse_w > 0.0;
+        is_in_front = inverse_w * eye_inverse_w > 0.0;
     }
-    // Positive where the surface faces the light.
-    point.is_own_shadow = surface.casts && point.across <= 0.0;
+    point.is_covered = is_in_front && all(point.texel >= vec2f(0.0)) && all(point.texel < vec2f(map.size));
+    // Positive where the surface faces the light; 0 where there is no normal or no view.
+    point.is_own_shadow = surface.casts && is_in_front && point.across < 0.0;
     let z = abs(point.depth);
+    let metres = position_rounding(map.eye, depth, eye_inverse_w) + map.caster_rounding;
     let per_metre = map.per_metre.x * z * z + map.per_metre.y;
-    point.rounding = map.rounding.x * z + map.rounding.y + position_rounding(map.eye, depth, eye_inverse_w) * per_metre;
+    point.rounding = map.rounding.x * z + map.rounding.y + metres * per_metre;
     return point;
 }
 
 // Change of depth per texel. A plane seen edge-on has no slope to speak of; the largest that helps spans all depth.
 fn map_slope(point: MapPoint) -> vec2f {
-    return clamp(point.along / point.across, vec2f(-1.0), vec2f(1.0));
+    let slope = clamp(point.along / point.across, vec2f(-1.0), vec2f(1.0));
+    return select(slope, vec2f(0.0), point.across == 0.0);
 }
 
 // What comparing has to forgive when the compared surface may be `texels` away from the receiver's own place.

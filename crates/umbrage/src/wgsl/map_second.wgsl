@@ -4,7 +4,7 @@
 
 fn is_first(position: vec4f) -> bool {
     let first = textureLoad(first_depth, vec2i(position.xy), 0);
-    return position.z >= first - (abs(first) * 1e-5 + 1e-7);
+    return position.z >= first - (first * map_view.same.x + map_view.same.y);
 }
 
 @fragment

@@ -7,7 +7,11 @@ use crate::params::{Param, ParamKind};
 use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, RECEIVERS, Shader};
 use crate::technique::TechniqueInfo;
 
-const SHADER: Shader = Shader { name: "pcf", parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, include_str!("pcf.wgsl")], layouts: LOOKUP_LAYOUTS };
+const SHADER: Shader = Shader {
+    name: "pcf",
+    parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, include_str!("pcf.wgsl")],
+    layouts: LOOKUP_LAYOUTS,
+};
 
 const KERNEL: Param = Param {
     name: "kernel",
@@ -51,8 +55,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
         };
         let radius = settings.float("radius");
         let reach = if side == 0 { radius + 1.0 } else { 0.5 * f64::from(side) + 0.5 };
-        let constants =
-            [("KERNEL", f64::from(side)), ("TAPS", settings.int("taps") as f64), ("RADIUS", radius)];
+        let constants = [("KERNEL", f64::from(side)), ("TAPS", settings.int("taps") as f64), ("RADIUS", radius)];
         Ok(Box::new(MapTechnique::new(gpu, settings, &SHADER, reach, &constants)?))
     },
 };

@@ -6,8 +6,11 @@ use crate::depth_maps::{BIAS, FACES, FOCUS, LIGHTS, LOOKUP_LAYOUTS, MapTechnique
 use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, RECEIVERS, Shader};
 use crate::technique::TechniqueInfo;
 
-const SHADER: Shader =
-    Shader { name: "shadow-map", parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, include_str!("shadow_map.wgsl")], layouts: LOOKUP_LAYOUTS };
+const SHADER: Shader = Shader {
+    name: "shadow-map",
+    parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, include_str!("shadow_map.wgsl")],
+    layouts: LOOKUP_LAYOUTS,
+};
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
