@@ -3,7 +3,7 @@
 use anyhow::Result;
 use clap::Args;
 use umbrage::Gpu;
-use umbrage_report::Source;
+use umbrage_report::{Choice, Source};
 
 /// Which adapter to use.
 #[derive(Args)]
@@ -17,6 +17,39 @@ impl Adapter {
     /// The device to work with.
     pub fn gpu(&self) -> Result<Gpu> {
         Ok(Gpu::request(self.adapter.as_deref())?)
+    }
+}
+
+/// What several techniques are run on.
+#[derive(Args)]
+pub struct What {
+    /// Built-in scenes or files
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<String>,
+    /// Techniques with settings, `id` or `id:name=value`, separated by commas; `all` is every one
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "all")]
+    techniques: Vec<String>,
+    /// Parameter of a technique wherever it is in the list
+    #[arg(long, value_name = "TECHNIQUE.NAME=VALUE", value_parser = triple)]
+    set: Vec<(String, String, String)>,
+    /// Average every hard technique of the list over so many points of the light
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    light_samples: Option<u32>,
+    /// Only this light of each scene, from 0 [default: all]
+    #[arg(long, value_name = "N")]
+    light: Option<usize>,
+}
+
+impl What {
+    /// The techniques with their settings.
+    pub fn choices(&self) -> Result<Vec<Choice>> {
+        let choices = Choice::list(&self.techniques, &self.set)?;
+        Ok(choices.into_iter().map(|c| c.or_light_samples(self.light_samples)).collect())
+    }
+
+    /// The scenes and lights.
+    pub fn scenes(&self) -> Result<Vec<(Source, Vec<usize>)>> {
+        scenes(&self.scenes, self.light)
     }
 }
 

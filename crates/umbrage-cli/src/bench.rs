@@ -7,7 +7,7 @@ use crate::{
 use anyhow::Result;
 use clap::Args;
 use std::io::{Write, stdout};
-use umbrage_report::{Bench as Plan, Choice};
+use umbrage_report::Bench as Plan;
 
 /// Measures techniques: GPU time of each pass, frame, draws, triangles, memory, against the floor of the same run
 #[derive(Args)]
@@ -20,21 +20,8 @@ Examples:
 Techniques take turns frame by frame. `floor` is one full-screen pass that reads depth and writes visibility;
 `bare-minimum` is a depth-only pass into a map of the same size and a full-screen pass with one look-up.")]
 pub struct Bench {
-    /// Built-in scenes or files
-    #[arg(required = true, value_name = "SCENE")]
-    scenes: Vec<String>,
-    /// Techniques with settings, `id` or `id:name=value`, separated by commas; `all` is every one
-    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "all")]
-    techniques: Vec<String>,
-    /// Parameter of a technique wherever it is in the list
-    #[arg(long, value_name = "TECHNIQUE.NAME=VALUE", value_parser = args::triple)]
-    set: Vec<(String, String, String)>,
-    /// Average every hard technique of the list over so many points of the light
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    light_samples: Option<u32>,
-    /// Only this light of each scene, from 0 [default: all]
-    #[arg(long, value_name = "N")]
-    light: Option<usize>,
+    #[command(flatten)]
+    what: args::What,
     /// Frames of each technique
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: u32,
@@ -54,9 +41,8 @@ pub struct Bench {
 impl Bench {
     /// Measures and prints.
     pub fn run(self) -> Result<()> {
-        let choices = Choice::list(&self.techniques, &self.set)?;
-        let choices = choices.into_iter().map(|c| c.or_light_samples(self.light_samples)).collect();
-        let scenes = args::scenes(&self.scenes, self.light)?;
+        let choices = self.what.choices()?;
+        let scenes = self.what.scenes()?;
         let gpu = self.adapter.gpu()?;
         let plan = Plan {
             scenes,

@@ -10,7 +10,7 @@ use std::{
     io::{Write, stdout},
     path::PathBuf,
 };
-use umbrage_report::{Choice, Compare as Plan, Folder, tables};
+use umbrage_report::{Compare as Plan, Folder, tables};
 
 /// Scores techniques against ray-traced ground truth: a table, report.json and a page with pictures
 #[derive(Args)]
@@ -24,21 +24,8 @@ Examples:
 DIR gets report.json, index.html (open it in a browser) and pictures/. --reference takes a folder with
 NAME.lightK.visibility.png, NAME.lightK.mask.png and NAME.geometry.npz, NAME being that of the scene file.")]
 pub struct Compare {
-    /// Built-in scenes or files
-    #[arg(required = true, value_name = "SCENE")]
-    scenes: Vec<String>,
-    /// Techniques with settings, `id` or `id:name=value`, separated by commas; `all` is every one
-    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "all")]
-    techniques: Vec<String>,
-    /// Parameter of a technique wherever it is in the list
-    #[arg(long, value_name = "TECHNIQUE.NAME=VALUE", value_parser = args::triple)]
-    set: Vec<(String, String, String)>,
-    /// Average every hard technique of the list over so many points of the light
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    light_samples: Option<u32>,
-    /// Only this light of each scene, from 0 [default: all]
-    #[arg(long, value_name = "N")]
-    light: Option<usize>,
+    #[command(flatten)]
+    what: args::What,
     /// Rays for each pixel of the reference
     #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     samples: u32,
@@ -64,9 +51,8 @@ pub struct Compare {
 impl Compare {
     /// Compares, prints and writes.
     pub fn run(self) -> Result<()> {
-        let choices = Choice::list(&self.techniques, &self.set)?;
-        let choices = choices.into_iter().map(|c| c.or_light_samples(self.light_samples)).collect();
-        let scenes = args::scenes(&self.scenes, self.light)?;
+        let choices = self.what.choices()?;
+        let scenes = self.what.scenes()?;
         let gpu = self.adapter.gpu()?;
         let folder = Folder::create(&self.output)?;
         let plan = Plan {

@@ -193,7 +193,7 @@ impl Shot {
 
 fn unknown_view(name: &str, inside: &[&str]) -> Error {
     let names = [&["color", "visibility", "scored", "depth", "normal"], inside].concat();
-    let nearest = crate::source::nearest(name, names.iter().copied());
+    let nearest = umbrage::nearest(name, names.iter().copied());
     let remedy = nearest.map_or(format!("there are {}", names.join(", ")), |n| format!("did you mean `{n}`?"));
     Error::Name(format!("unknown picture `{name}`; {remedy}"))
 }

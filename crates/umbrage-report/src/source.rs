@@ -86,19 +86,13 @@ fn built_in(asked: &str) -> Result<Scene, Error> {
 
 fn unknown(id: &str) -> Error {
     let names = scenes::SCENES.iter().map(|s| s.id);
-    Error::Name(match nearest(id, names.clone()) {
+    Error::Name(match umbrage::nearest(id, names.clone()) {
         Some(name) => format!("unknown scene `{id}`; did you mean `{name}`?"),
         None => format!(
             "unknown scene `{id}`: neither a file (.scene.toml, .gltf, .glb, .obj) nor one of {}",
             names.collect::<Vec<_>>().join(", ")
         ),
     })
-}
-
-/// The name among `known` nearest to `name`, where one is near enough to be meant.
-pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let distance = |k: &str| strsim::damerau_levenshtein(&name.to_lowercase(), k);
-    known.map(|k| (distance(k), k)).filter(|(d, k)| *d <= 1 + k.len() / 3).min().map(|(_, k)| k)
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ const SIZE: (u32, u32) = (640, 480);
 /// The host's own depth pass: it knows nothing of umbrage.
 const HOST_SHADER: &str = "@vertex fn vertex(@location(0) clip: vec4f) -> @builtin(position) vec4f { return clip; }";
 
+/// Four frames.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     frames(4).map(|_| ())
 }
@@ -56,7 +57,6 @@ pub fn frames(count: u32) -> Result<umbrage::core::Image<f32>, Box<dyn std::erro
     let info = umbrage::find("pcf")?;
     let mut technique = info.make(&gpu, &info.settings(&[("kernel".into(), "5".into())])?)?;
     let mut recorder = Recorder::new(&gpu);
-
     for frame in 0..count {
         // The host moves things and draws its depth.
         let turned = DAffine3::from_translation(DVec3::Y) * DAffine3::from_rotation_y(0.4 * f64::from(frame));
