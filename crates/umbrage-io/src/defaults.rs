@@ -1,12 +1,14 @@
 //! A camera and a light for scenes that have none, made from the bounds.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use umbrage_core::{Camera, Light, LightShape, Scene};
 
 /// The scene is seen from its front, its right and above.
 const TO_CAMERA: DVec3 = DVec3::new(0.55, 0.45, 0.8);
 /// The light comes from above and from the left of the camera, so that shadows fall to the right, in sight.
 const TO_LIGHT: DVec3 = DVec3::new(-0.5, 1.0, 0.55);
+/// Linear RGB: what lies in shadow is still to be made out.
+const AMBIENT: Vec3 = Vec3::splat(0.06);
 /// Degrees.
 const FOV_Y: f64 = 40.0;
 
@@ -30,8 +32,11 @@ pub(crate) fn add_light(scene: &mut Scene, notes: &mut Vec<String>) {
     let distance = 3.0 * radius_of(scene);
     let (position, radius) = (scene.bounds().center() + TO_LIGHT.normalize() * distance, distance * 0.05);
     scene.lights.push(Light::new(LightShape::Sphere { position, radius }));
+    if scene.ambient == Vec3::ZERO {
+        scene.ambient = AMBIENT;
+    }
     notes.push(format!(
-        "no light in the file: made a soft key light (sphere, radius {radius:.3} m, at {:.3}, {:.3}, {:.3})",
+        "no light in the file: made a soft key light with a little ambient (sphere, radius {radius:.3} m, at {:.3}, {:.3}, {:.3})",
         position.x, position.y, position.z
     ));
 }
