@@ -14,10 +14,10 @@ use umbrage_report::Bench as Plan;
 #[command(after_help = "\
 Examples:
   umbrage bench atrium --techniques all
-  umbrage bench city primitives --techniques shadow-map:size=1024,pcf:kernel=5 --frames 200 --json > bench.json
+  umbrage bench city primitives --techniques shadow-map:size=512,pcf --json > bench.json
   umbrage bench bunny.scene.toml --light 0 --csv > bench.csv
 
-Techniques take turns frame by frame. `floor` is one full-screen pass that reads depth and writes visibility;
+Techniques take turns frame by frame. `floor` is one full-screen pass that reads depth and writes visibility; \
 `bare-minimum` is a depth-only pass into a map of the same size and a full-screen pass with one look-up.")]
 pub struct Bench {
     #[command(flatten)]

@@ -18,11 +18,10 @@ use umbrage_report::{Compare as Plan, Folder, tables};
 Examples:
   umbrage compare primitives --techniques all -o out
   umbrage compare atrium city --techniques shadow-map,pcf:kernel=7 --samples 1024 -o out
-  umbrage compare contact --techniques shadow-map,shadow-map:light-samples=64 --set shadow-map.size=1024 -o out
+  umbrage compare contact --techniques shadow-map,shadow-map:light-samples=64 --samples 64 -o out
   umbrage compare boxes.scene.toml --techniques all --reference references -o out --json
 
-DIR gets report.json, index.html (open it in a browser) and pictures/. --reference takes a folder with
-NAME.lightK.visibility.png, NAME.lightK.mask.png and NAME.geometry.npz, NAME being that of the scene file.")]
+DIR gets report.json, index.html (open it in a browser) and pictures/. --reference takes a folder with NAME.lightK.visibility.png, NAME.lightK.mask.png and NAME.geometry.npz, NAME being that of the scene file.")]
 pub struct Compare {
     #[command(flatten)]
     what: args::What,
@@ -54,7 +53,7 @@ impl Compare {
         let choices = self.what.choices()?;
         let scenes = self.what.scenes()?;
         let gpu = self.adapter.gpu()?;
-        let folder = Folder::create(&self.output)?;
+        let folder = Folder::check(&self.output)?;
         let plan = Plan {
             scenes,
             choices,

@@ -16,13 +16,15 @@ use umbrage_report::{
 #[command(after_help = "\
 Examples:
   umbrage render atrium -o atrium.png
-  umbrage render bunny.scene.toml --technique shadow-map --set size=1024 --light 0 --aov visibility -o v.exr
+  umbrage render bunny.scene.toml --technique shadow-map --light 0 --aov visibility -o v.exr
   umbrage render contact --technique shadow-map --light-samples 256 -o soft.png
-  umbrage render contact --technique ray-traced --samples 256 --light 0 --aov visibility -o truth.png
+  umbrage render contact --technique ray-traced --samples 256 --aov visibility -o v.png
 
-Pictures: `color` is sRGB PNG. `visibility` is linear: 16-bit grey PNG, or float EXR (channel V); it needs
---light where a scene has several. `scored` is 255 where the comparison looks. `depth` is metres along the view in
-EXR (channel Z). `normal` is world space in EXR, (n + 1) / 2 in PNG.")]
+Pictures: `color` is sRGB PNG. `visibility` is linear: 16-bit grey PNG, or float EXR (channel V); it needs \
+--light where a scene has several. `scored` is 255 where the comparison looks. `depth` is metres along the view in \
+EXR (channel Z), the nearest over the distance in PNG. `normal` is world space in EXR, (n + 1) / 2 in PNG. Maps are as \
+stored in EXR (channel V), with the largest value white in PNG; a light to all sides has `map-0` to `map-5`, those of \
+faces in use.")]
 pub struct Render {
     /// Built-in scene or file
     scene: String,
@@ -44,7 +46,7 @@ pub struct Render {
     /// Average a hard technique over so many points of the light
     #[arg(long, value_name = "N")]
     light_samples: Option<u32>,
-    /// color, visibility, scored, depth, normal, or a view into the technique
+    /// color, visibility, scored, depth, normal, or a view into the technique, such as map-0
     #[arg(long, value_name = "NAME", default_value = "color")]
     aov: String,
     /// File to write, .png or .exr
@@ -66,7 +68,7 @@ impl Render {
         let of_one_light = matches!(aov, Aov::Visibility | Aov::Scored | Aov::Inside(_));
         if of_one_light && lights.len() > 1 {
             let last = lights.len() - 1;
-            bail!("{}: `{}` is of one light; say which with --light, 0 to {last}", source.scene.name, self.aov);
+            bail!("{}: `{}` is of one light; say which with --light, 0 to {last}", source.asked, self.aov);
         }
         source.notes.iter().for_each(|note| eprintln!("note: {note}"));
         let shot = Shot { source, lights, method, size: (self.size.width, self.size.height), aov };

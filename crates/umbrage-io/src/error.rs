@@ -1,6 +1,7 @@
 //! The one error of this crate: what is wrong, where, and what helps.
 
 use std::fmt::{self, Display};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// What went wrong with a file. Displayed as one line: file, place, what, remedy.
@@ -78,8 +79,10 @@ fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a s
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Error> {
     std::fs::read(path).map_err(|e| {
         let error = Error::new(path, format!("cannot be read: {e}"));
-        if e.kind() != std::io::ErrorKind::NotFound {
-            return error;
+        match e.kind() {
+            ErrorKind::NotFound => {}
+            ErrorKind::IsADirectory => return error.remedy("name a file in it"),
+            _ => return error,
         }
         let dir = path.parent().filter(|d| !d.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let name = path.file_name().unwrap_or_default().to_string_lossy();

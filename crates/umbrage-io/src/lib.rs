@@ -37,7 +37,9 @@ pub struct Opened {
 pub fn open(path: &Path) -> Result<Opened, Error> {
     if extension(path) == "toml" {
         let bytes = error::read(path)?;
-        let text = std::str::from_utf8(&bytes).map_err(|e| Error::new(path, format!("is not UTF-8 text: {e}")))?;
+        let text = std::str::from_utf8(&bytes).map_err(|e| {
+            Error::new(path, format!("is not UTF-8 text: {e}")).remedy("save it as UTF-8, or name another file")
+        })?;
         let dir = path.parent().unwrap_or(Path::new(""));
         return scene_file::read(text, dir, path);
     }

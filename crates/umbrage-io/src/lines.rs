@@ -53,7 +53,9 @@ impl Line<'_> {
                 self.error(format!("`{}` needs {N} numbers and has {i}", self.keyword))
                     .remedy("the file may be cut off or damaged: export it again")
             })?;
-            *number = f32::from_str(word).map_err(|_| self.error(format!("`{word}` is not a number")))?;
+            *number = f32::from_str(word).map_err(|_| {
+                self.error(format!("`{word}` is not a number")).remedy("mend it, or export the file again")
+            })?;
             if !number.is_finite() {
                 return Err(self
                     .error(format!("`{} {}` is not finite", self.keyword, self.rest))

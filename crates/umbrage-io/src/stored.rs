@@ -97,7 +97,9 @@ impl StoredReference {
 /// # Errors
 /// A folder that cannot be read or holds none.
 pub fn list(dir: &Path) -> Result<BTreeMap<String, Vec<usize>>, Error> {
-    let entries = std::fs::read_dir(dir).map_err(|e| Error::new(dir, format!("cannot be read as a folder: {e}")))?;
+    let entries = std::fs::read_dir(dir).map_err(|e| {
+        Error::new(dir, format!("cannot be read as a folder: {e}")).remedy("name the folder of the references")
+    })?;
     let mut stored: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for name in entries.flatten().map(|e| e.file_name().to_string_lossy().into_owned()) {
         let parts = name.strip_suffix(".visibility.png").and_then(|rest| rest.rsplit_once(".light"));

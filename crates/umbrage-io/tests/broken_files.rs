@@ -258,7 +258,7 @@ fn obj_errors_name_the_line() {
         ("v 1 1 0", "v 1 inf 0", &["a.obj:5: ", "not finite"]),
         ("v 1 1 0", "v 1 1e30 0", &["a.obj:5: ", "too far"]),
         ("v 1 1 0", "v 1 1", &["a.obj:5: ", "needs 3 numbers and has 2"]),
-        ("v 1 1 0", "v 1 x 0", &["a.obj:5: ", "`x` is not a number"]),
+        ("v 1 1 0", "v 1 x 0", &["a.obj:5: ", "`x` is not a number; mend it"]),
         ("3/2/1", "9/2/1", &["a.obj:11: ", "index 9 is out of range: the file has 4 vertices"]),
         ("3/2/1", "3/9/1", &["a.obj:11: ", "2 texture coordinates"]),
         ("3/2/1", "3/2/2", &["a.obj:11: ", "1 normals"]),
@@ -327,11 +327,14 @@ fn gltf_errors_name_the_part() {
             &["requires the extension `X_y`"],
         ),
         ("{\"asset\"", "{\"asset", &["not valid glTF"]),
+        ("\"version\":\"2.0\"", "\"version\":\"1.0\"", &["asset: is glTF 1.0, not 2.0; export"]),
     ] {
         f.expect("a.gltf", from, to, parts);
     }
     f.write("a.glb", &std::fs::read(f.path("a.glb")).unwrap()[..900]);
     assert!(f.error("a.glb").contains("bytes long, and is 900"), "{}", f.error("a.glb"));
+    f.write("a.glb", b"glTF\x02\0\0\0");
+    assert!(f.error("a.glb").contains("is 8 bytes long, and the header alone has 12"), "{}", f.error("a.glb"));
 }
 
 /// Cuts a file at many lengths and damages every byte; `open` must come back each time.

@@ -14,13 +14,14 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// Makes the folder where it is missing, and makes sure that files can be written there, before long work starts.
+    /// Makes sure that files can be written there, before long work starts. A folder that is missing is made with
+    /// the first file, so that work that fails leaves nothing behind.
     ///
     /// # Errors
     /// [`Error::Output`].
-    pub fn create(path: &Path) -> Result<Self, Error> {
-        fs::create_dir_all(path).map_err(|e| Error::output(path, e))?;
-        check_folder(path)?;
+    pub fn check(path: &Path) -> Result<Self, Error> {
+        let nearest = path.ancestors().map(or_here).find(|p| p.exists()).unwrap_or(path);
+        check_folder(nearest)?;
         Ok(Self { path: path.to_path_buf() })
     }
 
@@ -63,7 +64,12 @@ fn check_folder(folder: &Path) -> Result<(), Error> {
 }
 
 fn folder_of(path: &Path) -> &Path {
-    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+    path.parent().map_or(Path::new("."), or_here)
+}
+
+/// The path, where the empty one is the current folder.
+fn or_here(path: &Path) -> &Path {
+    if path.as_os_str().is_empty() { Path::new(".") } else { path }
 }
 
 #[cfg(test)]
@@ -73,7 +79,8 @@ mod tests {
     #[test]
     fn a_file_is_written_whole_and_nothing_else_stays() {
         let place = tempfile::tempdir().unwrap();
-        let folder = Folder::create(&place.path().join("a/b")).unwrap();
+        let folder = Folder::check(&place.path().join("a/b")).unwrap();
+        assert_eq!(fs::read_dir(place.path()).unwrap().count(), 0, "the check left something");
         folder.write("pictures/x.png", b"one").unwrap();
         folder.write("pictures/x.png", b"two").unwrap();
         assert_eq!(fs::read(folder.path("pictures/x.png")).unwrap(), b"two");
@@ -86,7 +93,7 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let file = place.path().join("file");
         fs::write(&file, b"").unwrap();
-        let text = Folder::create(&file.join("deeper")).unwrap_err().to_string();
+        let text = Folder::check(&file.join("deeper")).unwrap_err().to_string();
         assert!(text.contains("file") && text.contains("can't write"), "{text}");
         assert!(check_file(place.path()).unwrap_err().to_string().contains("folder"));
         assert!(check_file(&place.path().join("none/x.png")).unwrap_err().to_string().contains("none"));

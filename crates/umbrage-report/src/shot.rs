@@ -72,8 +72,10 @@ pub struct Shot {
 pub enum Picture {
     /// sRGB.
     Color(Image<[u8; 4]>),
-    /// Shares 0…1, and what is stored inside of techniques.
+    /// Shares, 0 to 1.
     Share(Image<f32>),
+    /// What is stored inside of a technique.
+    Inside(Image<f32>),
     /// Yes or no.
     Mask(Image<bool>),
     /// Metres along the view, 0 = nothing.
@@ -172,7 +174,7 @@ impl Shot {
                 let views = renderer.technique(0).map(|t| t.debug_views()).unwrap_or_default();
                 let names: Vec<&str> = views.iter().map(|v| v.name).collect();
                 let view = views.iter().find(|v| v.name == name).ok_or_else(|| unknown_view(name, &names))?;
-                Picture::Share(renderer.read_debug_view(view)?)
+                Picture::Inside(renderer.read_debug_view(view)?)
             }
         })
     }
@@ -191,11 +193,15 @@ impl Shot {
     }
 }
 
+fn wrong_name(path: &Path, remedy: &str) -> Error {
+    Error::Name(format!("{}: can't be written in this format; {remedy}", path.display()))
+}
+
 fn unknown_view(name: &str, inside: &[&str]) -> Error {
     let names = [&["color", "visibility", "scored", "depth", "normal"], inside].concat();
     let nearest = umbrage::nearest(name, names.iter().copied());
-    let remedy = nearest.map_or(format!("there are {}", names.join(", ")), |n| format!("did you mean `{n}`?"));
-    Error::Name(format!("unknown picture `{name}`; {remedy}"))
+    let guess = nearest.map_or(String::new(), |n| format!("did you mean `{n}`? "));
+    Error::Name(format!("unknown picture `{name}`; {guess}there are {}", names.join(", ")))
 }
 
 impl Picture {
@@ -207,15 +213,18 @@ impl Picture {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match (extension.as_str(), aov) {
             ("png", _) => Ok(()),
-            ("exr", Aov::Color | Aov::Scored) => Err(Error::output(path, "this picture is 8-bit: name it .png")),
+            ("exr", Aov::Color | Aov::Scored) => {
+                Err(wrong_name(path, "this picture has 8 bits a channel: end its name in .png"))
+            }
             ("exr", _) => Ok(()),
-            _ => Err(Error::output(path, "the name must end in .png or .exr")),
+            _ => Err(wrong_name(path, "end the name in .png or .exr")),
         }
     }
 
     /// Writes the picture as the extension says: PNG to look at, EXR with the numbers as they are.
     ///
-    /// In a PNG shares are 16-bit grey, depth is the nearest over the distance in 16-bit grey, normals are 8-bit (n + 1) / 2.
+    /// In a PNG shares are 16-bit grey, depth is the nearest over the distance in 16-bit grey, what is inside of a technique
+    /// is 16-bit grey with its largest value white, normals are 8-bit (n + 1) / 2.
     ///
     /// # Errors
     /// A file that can't be written.
@@ -226,6 +235,8 @@ impl Picture {
             Self::Mask(image) => pictures::save_png(path, &image.map(|&m| if m { 255u8 } else { 0 })),
             Self::Share(image) if is_exr => pictures::save_exr(path, image, "V"),
             Self::Share(image) => pictures::save_grey16(path, image),
+            Self::Inside(image) if is_exr => pictures::save_exr(path, image, "V"),
+            Self::Inside(image) => pictures::save_grey16(path, &largest_white(image)),
             Self::Depth(image) if is_exr => pictures::save_exr(path, image, "Z"),
             Self::Depth(image) => pictures::save_grey16(path, &inverse_depth(image)),
             Self::Normal(image) if is_exr => pictures::save_exr_rgb(path, image),
@@ -237,10 +248,24 @@ impl Picture {
     }
 }
 
+/// Scaled so that the largest value is 1: depths of a light to all sides, near over distance, are thousandths as they are.
+fn largest_white(image: &Image<f32>) -> Image<f32> {
+    let largest = image.data.iter().copied().fold(0.0, f32::max);
+    let scale = if largest > 0.0 { largest.recip() } else { 1.0 };
+    image.map(|&v| v * scale)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::progress::Silent;
+
+    #[test]
+    fn small_values_inside_of_a_technique_can_be_seen() {
+        let map = Image { width: 3, height: 1, data: vec![0.0, 0.001, 0.002] };
+        assert_eq!(largest_white(&map).data, [0.0, 0.5, 1.0]);
+        assert_eq!(largest_white(&Image::filled(1, 1, 0.0)).data, [0.0]);
+    }
 
     #[test]
     fn the_extension_must_fit_the_picture() {

@@ -48,6 +48,8 @@ fn names_that_are_not_known_come_with_the_nearest() {
     refused(&[], "compare contact --techniques none,pfc -o out", &["pfc", "did you mean `pcf`"]);
     refused(&[], "compare contact --set pfc.size=1 -o out", &["pfc", "did you mean `pcf`"]);
     refused(&[], "render contact --siez 4x4 -o a.png", &["--siez", "--size"]);
+    refused(&[], "render contact -o a.exr", &["a.exr", "end its name in .png"]);
+    refused(&[], "compare contact --reference nowhere -o out", &["nowhere", "folder of the references"]);
     refused(&[], "rendr contact", &["rendr", "render"]);
 }
 

@@ -26,16 +26,15 @@ pub fn output(folder: &Path, arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 
-/// Names of all files below `folder`, sorted.
+/// Names of all files and folders below `folder`, sorted.
 pub fn files(folder: &Path) -> Vec<String> {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).expect("a folder").flatten() {
         let path = entry.path();
         if path.is_dir() {
             names.extend(files(&path));
-        } else {
-            names.push(path.display().to_string());
         }
+        names.push(path.display().to_string());
     }
     names.sort();
     names

@@ -107,12 +107,20 @@ fn parse(file: &mut File<'_>, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>
     let damaged =
         |what: String| Error::new(file.path, what).remedy("the file may be cut off or damaged: export it again");
     // The length in the header counts the header of 12 bytes.
-    let length = bytes.get(8..12).and_then(|l| l.try_into().ok()).map_or(0, u32::from_le_bytes);
-    if bytes.starts_with(b"glTF") && (length < 12 || length as usize > bytes.len()) {
-        return Err(damaged(format!("says that it is {length} bytes long, and is {}", bytes.len())));
+    if bytes.starts_with(b"glTF") {
+        let Some(length) = bytes.get(8..12).and_then(|l| l.try_into().ok()).map(u32::from_le_bytes) else {
+            return Err(damaged(format!("is {} bytes long, and the header alone has 12", bytes.len())));
+        };
+        if length < 12 || length as usize > bytes.len() {
+            return Err(damaged(format!("says that it is {length} bytes long, and is {}", bytes.len())));
+        }
     }
     let gltf = Gltf::from_slice_without_validation(bytes).map_err(|e| damaged(format!("is not valid glTF: {e}")))?;
     let mut root = gltf.document.into_json();
+    let version = root.asset.min_version.as_ref().unwrap_or(&root.asset.version);
+    if !version.starts_with("2.") {
+        return Err(file.error("asset", format!("is glTF {version}, not 2.0")).remedy("export it as glTF 2.0"));
+    }
     let harmless = |name: &String| HARMLESS.contains(&name.as_str()) || name.starts_with("KHR_materials_");
     if let Some(required) = root.extensions_required.iter().find(|name| !harmless(name)) {
         return Err(Error::new(file.path, format!("requires the extension `{required}`, which cannot be read"))

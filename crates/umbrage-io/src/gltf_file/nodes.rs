@@ -31,7 +31,9 @@ impl Nodes {
         }
         // Every node has at most one parent here, so what no root leads to goes around in circles.
         let reached = |(index, transform): (usize, Option<DAffine3>)| {
-            transform.ok_or_else(|| file.error(format!("node {index}"), "is its own ancestor"))
+            transform.ok_or_else(|| {
+                file.error(format!("node {index}"), "is its own ancestor").remedy("take it out of its own children")
+            })
         };
         let model_from_node = transforms.into_iter().enumerate().map(reached).collect::<Result<_, _>>()?;
         Ok(Self { model_from_node })
