@@ -12,7 +12,7 @@ use std::{fs, path::PathBuf};
 const BUILT_IN: [&str; 4] = ["primitives", "atrium:0.25", "city", "terrain"];
 /// Every technique, and the filters that prices are quoted for.
 const TECHNIQUES: &str = "all,pcf:kernel=2x2,pcf:kernel=5,pcf:kernel=7";
-const FRAMES: &str = "20";
+const FRAMES: &str = "8";
 const SIZE: &str = "1024x768";
 
 /// Runs the benchmark and writes `benchmarks/<date>-<machine>/`.

@@ -4,15 +4,11 @@
 @fragment
 fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
     let depth = textureLoad(receiver_depth, vec2i(at.xy), 0);
-    if depth == map.eye.background_depth {
-        return 1.0;
-    }
     let point = map_point(at.xy, depth, surface(map.eye, at.xy, depth));
-    if point.is_own_shadow {
-        return 0.0;
-    }
-    if !point.is_covered {
-        return 1.0;
+    // Nothing drawn, no view of the light there, or turned away from it. One branch for all three: each costs.
+    let is_drawn = depth != map.eye.background_depth;
+    if !(is_drawn && point.is_covered) || point.is_own_shadow {
+        return select(1.0, 0.0, is_drawn && point.is_own_shadow);
     }
     return lit_share(point, at.xy);
 }
