@@ -75,7 +75,7 @@ pub const COLUMNS: [Column; 16] = [
         "Error as a share of that of a perfect hard shadow: 1 is no better than hard, 0 is the truth. Soft lights only.",
     ),
     cost("gpu ms", "gpu_ms", 1.0, 2, true, "GPU time of all passes of the technique, median."),
-    cost("prepare ms", "prepare_ms", 1.0, 2, false, "CPU time to prepare the frame, median."),
+    cost("prepare ms", "prepare_ms", 1.0, 2, false, "CPU time to prepare and record the frame, median."),
     cost(
         "frame ms",
         "frame_ms",

@@ -177,7 +177,7 @@ pub struct CostRecord {
     /// GPU time of all its passes; null where the adapter keeps no time.
     #[serde(serialize_with = "maybe_six")]
     pub gpu_ms: Option<f64>,
-    /// Time that the CPU prepares the frame.
+    /// Time that the CPU prepares and records the frame.
     #[serde(serialize_with = "six")]
     pub prepare_ms: f64,
     /// The whole frame from start to finished picture: G-buffer, shadow, shading.
