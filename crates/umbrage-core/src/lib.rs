@@ -12,11 +12,14 @@
 //! | depth | reversed: 1 at the near plane, 0 at infinity |
 //! | winding | counter-clockwise is the front |
 
+pub mod adjacency;
 pub mod bounds;
 pub mod camera;
+mod convex;
 pub mod frustum;
 pub mod image;
 pub mod light;
+mod light_reach;
 pub mod light_view;
 pub mod material;
 pub mod mesh;
@@ -24,7 +27,13 @@ pub mod mesh_check;
 pub mod primitive;
 pub mod sampling;
 pub mod scene;
+pub mod scene_tree;
 pub mod scenes;
+pub mod shadow_hull;
+pub mod silhouette;
+mod view_body;
+mod volume;
+mod weld;
 
 pub use bounds::Bounds;
 pub use camera::{Camera, CameraView};
@@ -34,5 +43,6 @@ pub use light::{Light, LightKind, LightKinds, LightShape};
 pub use material::{Material, Texture};
 pub use mesh::Mesh;
 pub use scene::{Instance, Scene};
+pub use scene_tree::SceneTree;
 
 pub use glam;

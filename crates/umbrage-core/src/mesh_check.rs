@@ -4,6 +4,7 @@
 
 use crate::mesh::Mesh;
 use crate::scene::Scene;
+use crate::weld::weld;
 use glam::Vec3;
 use std::ops::{Add, Mul};
 
@@ -81,7 +82,7 @@ impl std::iter::Sum for MeshReport {
 
 /// Looks a mesh over. Any mesh will do, a broken one too.
 pub fn check(mesh: &Mesh) -> MeshReport {
-    let (welded, positions) = weld(&mesh.positions);
+    let welded = weld(&mesh.positions);
     let in_range = |t: &[u32; 3]| t.iter().all(|&i| (i as usize) < mesh.positions.len());
     let kept: Vec<[u32; 3]> = mesh.triangles().filter(in_range).collect();
     let corners: Vec<[u32; 3]> = kept.iter().map(|t| t.map(|i| welded[i as usize])).collect();
@@ -89,7 +90,7 @@ pub fn check(mesh: &Mesh) -> MeshReport {
     MeshReport {
         triangles: mesh.triangle_count(),
         vertices: mesh.positions.len(),
-        positions,
+        positions: welded.iter().zip(0..).filter(|(first, i)| *first == i).count(),
         open_edges,
         non_manifold_edges,
         inconsistent_edges,
@@ -108,21 +109,6 @@ pub fn check_scene(scene: &Scene) -> MeshReport {
         placed[instance.mesh] += 1;
     }
     scene.meshes.iter().zip(placed).filter(|(_, n)| *n > 0).map(|(mesh, n)| check(mesh) * n).sum()
-}
-
-/// A number for every vertex, the same where positions are equal, and how many numbers there are.
-fn weld(positions: &[Vec3]) -> (Vec<u32>, usize) {
-    // Adding 0 makes −0 and 0 equal.
-    let key = |i: u32| (positions[i as usize] + 0.0).to_array().map(f32::to_bits);
-    let mut order: Vec<u32> = (0..positions.len() as u32).collect();
-    order.sort_unstable_by_key(|&i| key(i));
-    let mut welded = vec![0; positions.len()];
-    let mut count = 0;
-    for (k, &i) in order.iter().enumerate() {
-        count += usize::from(k == 0 || key(order[k - 1]) != key(i));
-        welded[i as usize] = count as u32 - 1;
-    }
-    (welded, count)
 }
 
 /// How many edges are open, non-manifold and inconsistently wound.

@@ -6,17 +6,23 @@
 
 use crate::fullscreen::{bind, layout};
 use crate::{error::Error, gpu::Gpu, shader::shader_struct};
-use std::ops::Range;
+use std::{ops::Range, sync::OnceLock};
 use umbrage_core::glam::{DAffine3, DVec3, DVec4};
-use umbrage_core::{Bounds, Scene};
+use umbrage_core::{Bounds, Mesh, Scene, scene_tree::SceneTree};
 
 mod draw_list;
+mod edges;
+mod eye_tree;
 mod material;
 pub(crate) use draw_list::{DrawList, Light, Which};
+pub(crate) use edges::{EDGES_WGSL, Edge, Edges, MeshEdges, STORAGE};
+pub(crate) use eye_tree::Sight;
 pub(crate) use material::{MATERIAL_LAYOUT, MATERIALS_WGSL, texture_layout};
 
-/// Declares `Instance`, the buffers of group 1 and how a vertex gets into the world.
-pub(crate) const CASTERS_WGSL: &str = include_str!("wgsl/casters.wgsl");
+/// Declares `Instance` and how a vertex gets into the world.
+pub(crate) const INSTANCES_WGSL: &str = include_str!("wgsl/instances.wgsl");
+/// The same with the buffers of group 1.
+pub(crate) const CASTERS_WGSL: &str = concat!(include_str!("wgsl/casters.wgsl"), include_str!("wgsl/instances.wgsl"));
 
 shader_struct! {
     /// A placed mesh; the rows of an affine matrix from mesh space to world space about [`Casters::origin`].
@@ -43,11 +49,28 @@ pub struct Casters {
     pub(crate) positions: wgpu::Buffer,
     pub(crate) attributes: wgpu::Buffer,
     pub(crate) indices: wgpu::Buffer,
-    instances: wgpu::Buffer,
+    pub(crate) instances: wgpu::Buffer,
     textures: Vec<wgpu::BindGroup>,
     batches: Vec<Batch>,
     placed: Vec<Placed>,
+    /// Where in `placed` each instance is.
+    place_of: Vec<u32>,
+    /// Boxes of the instances that throw shadows, by their place in `placed`.
+    tree: SceneTree,
+    /// Positions and indices alone, for what is made of them on demand.
+    meshes: Vec<MeshPart>,
+    edges: OnceLock<Edges>,
+    /// Boxes around everything and around all receivers, made when asked for.
+    around: OnceLock<[Bounds; 2]>,
     bytes: u64,
+}
+
+/// A mesh and where it lies in the shared buffers.
+pub(crate) struct MeshPart {
+    /// Without normals and texture coordinates.
+    pub mesh: Mesh,
+    pub first_index: u32,
+    pub base_vertex: u32,
 }
 
 /// Instances of one mesh with one texture: one draw.
@@ -62,15 +85,19 @@ struct Batch {
 }
 
 /// What the CPU keeps of an instance, in the order of the batches.
-struct Placed {
-    number: u32,
+pub(crate) struct Placed {
+    pub number: u32,
+    pub mesh: u32,
+    pub world_from_mesh: DAffine3,
+    pub mesh_from_world: DAffine3,
+    pub masked: bool,
     mesh_bounds: Bounds,
-    bounds: Bounds,
+    pub bounds: Bounds,
     /// Of a flat mesh, in its own space.
     mesh_plane: Option<DVec4>,
     plane: Option<DVec4>,
-    casts: bool,
-    receives: bool,
+    pub casts: bool,
+    pub receives: bool,
     data: Instance,
 }
 
@@ -83,7 +110,7 @@ impl Casters {
         check(gpu, scene)?;
         let origin = scene.bounds().center();
         let (mut positions, mut attributes, mut indices) = (Vec::new(), Vec::new(), Vec::<u32>::new());
-        let mut ranges = Vec::new();
+        let (mut ranges, mut meshes) = (Vec::new(), Vec::new());
         for mesh in &scene.meshes {
             let base_vertex = positions.len() as i32;
             let first = indices.len() as u32;
@@ -95,6 +122,9 @@ impl Casters {
             }));
             indices.extend(&mesh.indices);
             ranges.push((first..indices.len() as u32, base_vertex, mesh.bounds(), mesh.plane()));
+            let (positions, indices) = (mesh.positions.clone(), mesh.indices.clone());
+            let mesh = Mesh { positions, indices, ..Mesh::default() };
+            meshes.push(MeshPart { mesh, first_index: first, base_vertex: base_vertex as u32 });
         }
         let mut order: Vec<usize> = (0..scene.instances.len()).collect();
         let key = |i: usize| {
@@ -122,6 +152,10 @@ impl Casters {
             }
             placed.push(Placed {
                 number: i as u32,
+                mesh: mesh as u32,
+                world_from_mesh: instance.world_from_mesh,
+                mesh_from_world: instance.world_from_mesh.inverse(),
+                masked,
                 mesh_bounds: bounds,
                 bounds: bounds.transformed(&instance.world_from_mesh),
                 mesh_plane: plane,
@@ -143,33 +177,59 @@ impl Casters {
         placed.iter().for_each(|p| data[p.number as usize] = p.data);
 
         use wgpu::BufferUsages as Usage;
-        let positions = gpu.buffer("positions", &positions, Usage::VERTEX);
+        let positions = gpu.buffer("positions", &positions, Usage::VERTEX | Usage::STORAGE);
         let attributes = gpu.buffer("normals and texture coordinates", &attributes, Usage::VERTEX);
-        let indices = gpu.buffer("indices", &indices, Usage::INDEX);
+        let indices = gpu.buffer("indices", &indices, Usage::INDEX | Usage::STORAGE);
         let instances = gpu.buffer("instances", &data, Usage::STORAGE | Usage::COPY_DST);
         let materials = gpu.buffer("materials", &material::all(scene), Usage::STORAGE);
         let bytes = [&positions, &attributes, &indices, &instances, &materials].iter().map(|b| b.size()).sum();
         let buffers = [instances.as_entire_binding(), materials.as_entire_binding()];
         let bind_group = bind(gpu, "casters", &Self::layout(gpu), &buffers);
         let textures = material::textures(gpu, scene)?;
-        Ok(Self { origin, bind_group, positions, attributes, indices, instances, textures, batches, placed, bytes })
+        let mut place_of = vec![0; placed.len()];
+        let mut tree = SceneTree::new(scene.bounds());
+        for (place, p) in (0..).zip(&placed) {
+            place_of[p.number as usize] = place;
+            if p.casts {
+                tree.insert(place, p.bounds);
+            }
+        }
+        Ok(Self {
+            origin,
+            bind_group,
+            positions,
+            attributes,
+            indices,
+            instances,
+            textures,
+            batches,
+            placed,
+            place_of,
+            tree,
+            meshes,
+            edges: OnceLock::new(),
+            around: OnceLock::new(),
+            bytes,
+        })
     }
 
     /// Layout of the bind group that `wgsl/casters.wgsl` declares as group 1.
     pub(crate) fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-        let storage = wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only: true },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        };
-        layout(gpu, "casters", wgpu::ShaderStages::VERTEX_FRAGMENT, &[storage, storage])
+        layout(gpu, "casters", wgpu::ShaderStages::VERTEX_FRAGMENT, &[STORAGE, STORAGE])
     }
 
     /// Moves an instance (by its place in [`Scene::instances`]); one small upload, nothing is rebuilt. A number that is not
     /// in the scene changes nothing.
     pub fn move_instance(&mut self, gpu: &Gpu, instance: usize, world_from_mesh: &DAffine3) {
-        let Some(placed) = self.placed.iter_mut().find(|p| p.number as usize == instance) else { return };
+        let Some(&place) = self.place_of.get(instance) else { return };
+        let placed = &mut self.placed[place as usize];
+        placed.world_from_mesh = *world_from_mesh;
+        placed.mesh_from_world = world_from_mesh.inverse();
         placed.bounds = placed.mesh_bounds.transformed(world_from_mesh);
+        if placed.casts {
+            self.tree.update(place, placed.bounds);
+        }
+        self.around = OnceLock::new();
         placed.plane = placed.mesh_plane.map(|p| moved_plane(p, world_from_mesh));
         let Instance { row0, row1, row2, .. } = rows(world_from_mesh, self.origin);
         placed.data = Instance { row0, row1, row2, ..placed.data };
@@ -200,6 +260,55 @@ impl Casters {
     /// Boxes around the instances that throw shadows.
     pub fn casting_bounds(&self) -> impl Iterator<Item = Bounds> + '_ {
         self.placed.iter().filter(|p| p.casts).map(|p| p.bounds)
+    }
+
+    /// A box around everything that shadows fall on.
+    pub(crate) fn receivers_bounds(&self) -> Bounds {
+        self.around()[1]
+    }
+
+    /// A box around everything.
+    pub(crate) fn all_bounds(&self) -> Bounds {
+        self.around()[0]
+    }
+
+    fn around(&self) -> &[Bounds; 2] {
+        self.around.get_or_init(|| {
+            let all = self.placed.iter().map(|p| p.bounds).fold(Bounds::EMPTY, Bounds::union);
+            [all, self.receiving_bounds().fold(Bounds::EMPTY, Bounds::union)]
+        })
+    }
+
+    /// The instances that throw shadows, for queries; its numbers are those of [`Casters::placed`].
+    pub(crate) fn tree(&self) -> &SceneTree {
+        &self.tree
+    }
+
+    /// The instances in the order of the batches.
+    pub(crate) fn placed(&self) -> &[Placed] {
+        &self.placed
+    }
+
+    /// The meshes without their appearance.
+    pub(crate) fn meshes(&self) -> &[MeshPart] {
+        &self.meshes
+    }
+
+    /// Edges and planes of all meshes, made when first asked for.
+    ///
+    /// # Errors
+    /// [`Error::Size`] where they do not fit the adapter's limits.
+    pub(crate) fn edges(&self, gpu: &Gpu) -> Result<&Edges, Error> {
+        if let Some(edges) = self.edges.get() {
+            return Ok(edges);
+        }
+        let made = Edges::new(gpu, self)?;
+        Ok(self.edges.get_or_init(|| made))
+    }
+
+    /// Edges and planes where they have been made.
+    pub(crate) fn made_edges(&self) -> Option<&Edges> {
+        self.edges.get()
     }
 
     /// Boxes around the instances that shadows fall on.

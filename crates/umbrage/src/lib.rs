@@ -40,6 +40,7 @@ mod read;
 mod receivers;
 mod renderer;
 mod shader;
+mod silhouettes;
 mod technique;
 mod techniques;
 mod view;

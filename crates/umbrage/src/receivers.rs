@@ -16,6 +16,8 @@ pub struct Receivers {
     pub size: (u32, u32),
     pub(crate) has_normals: bool,
     pub(crate) bind_group: wgpu::BindGroup,
+    pub(crate) depth: wgpu::TextureView,
+    pub(crate) stencil: Option<wgpu::TextureView>,
 }
 
 impl Receivers {
@@ -31,7 +33,14 @@ impl Receivers {
         };
         let views = [depth, normal_view].map(wgpu::BindingResource::TextureView);
         let bind_group = bind(gpu, "receivers", &Self::layout(gpu), &views);
-        Self { size, has_normals: normal.is_some(), bind_group }
+        Self { size, has_normals: normal.is_some(), bind_group, depth: depth.clone(), stencil: None }
+    }
+
+    /// Lends the depth buffer's stencil: `view` is of the same texture with both aspects. Techniques that count in the stencil
+    /// then need no copy of the depth; what was in the stencil is lost.
+    pub fn with_stencil(mut self, view: &wgpu::TextureView) -> Self {
+        self.stencil = Some(view.clone());
+        self
     }
 
     /// Layout of the bind group that `wgsl/receivers.wgsl` declares as group 0.

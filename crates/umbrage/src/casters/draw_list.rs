@@ -29,7 +29,7 @@ pub(crate) struct Light {
 impl Placed {
     /// True where the instance is flat and all receivers are on the light's side of it: a floor that everything stands on
     /// shadows nothing, and need not be drawn into a map.
-    fn shadows_nothing(&self, light: &Light) -> bool {
+    pub(crate) fn shadows_nothing(&self, light: &Light) -> bool {
         let Some(plane) = self.plane else { return false };
         let side = plane.dot(light.center);
         let rounding = 1e-9 * light.receivers.largest_coordinate();

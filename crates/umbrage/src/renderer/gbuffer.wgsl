@@ -12,7 +12,8 @@ struct GBufferView {
 @group(0) @binding(0) var<uniform> gbuffer_view: GBufferView;
 
 struct Surface {
-    @builtin(position) position: vec4f,
+    // Shadow volumes are compared with it where they touch the surface that throws them.
+    @invariant @builtin(position) position: vec4f,
     @location(0) from_eye: vec3f,
     @location(1) normal: vec3f,
     @location(2) uv: vec2f,

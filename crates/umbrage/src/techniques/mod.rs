@@ -10,7 +10,7 @@ macro_rules! techniques {
     };
 }
 
-techniques![none, shadow_map, pcf,];
+techniques![none, shadow_map, pcf, volume,];
 
 /// All techniques, in the order in which they are best explained.
 pub fn techniques() -> &'static [&'static TechniqueInfo] {

@@ -1,0 +1,67 @@
+//! Volumes that boxes are tested against.
+
+use crate::{bounds::Bounds, frustum::Frustum};
+use glam::DVec3;
+
+/// Where a box is as seen from a volume.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// No point of the box is in the volume.
+    Outside,
+    /// Some of the box may be in the volume.
+    Partly,
+    /// All of the box is in the volume.
+    Inside,
+}
+
+/// A volume that a [`crate::SceneTree`] can be asked about.
+pub trait Volume {
+    /// Where `bounds` is. `Outside` and `Inside` only where that is certain, and then the same, but for rounding, for
+    /// every box within `bounds`. An empty box is outside.
+    fn side(&self, bounds: &Bounds) -> Side;
+}
+
+impl Side {
+    pub(crate) fn of(may_touch: bool, holds: impl FnOnce() -> bool) -> Self {
+        match may_touch {
+            false => Self::Outside,
+            true if holds() => Self::Inside,
+            true => Self::Partly,
+        }
+    }
+}
+
+/// A ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    /// Its middle, metres.
+    pub center: DVec3,
+    /// Its radius, metres, not negative; infinity is everything.
+    pub radius: f64,
+}
+
+impl Volume for Sphere {
+    fn side(&self, bounds: &Bounds) -> Side {
+        let (below, above) = (bounds.min - self.center, self.center - bounds.max);
+        let nearest = below.max(above).max(DVec3::ZERO);
+        let farthest = below.abs().max(above.abs());
+        let square = self.radius * self.radius;
+        let misses = bounds.is_empty() || nearest.length_squared() > square;
+        Side::of(!misses, || farthest.length_squared() <= square)
+    }
+}
+
+impl Volume for Bounds {
+    fn side(&self, bounds: &Bounds) -> Side {
+        let touches = bounds.min.cmple(self.max).all() && bounds.max.cmpge(self.min).all();
+        Side::of(touches && !bounds.is_empty() && !self.is_empty(), || {
+            bounds.min.cmpge(self.min).all() && bounds.max.cmple(self.max).all()
+        })
+    }
+}
+
+impl Volume for Frustum {
+    fn side(&self, bounds: &Bounds) -> Side {
+        Side::of(self.may_see(bounds), || self.holds(bounds))
+    }
+}

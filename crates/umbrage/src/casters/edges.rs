@@ -1,0 +1,116 @@
+//! Edges and planes of the meshes on the GPU, for techniques that extrude silhouettes.
+
+use super::{Casters, eye_tree::EyeTree};
+use crate::fullscreen::{bind, layout};
+use crate::{error::Error, gpu::Gpu, shader::shader_struct};
+use std::sync::OnceLock;
+use umbrage_core::adjacency::{Adjacency, NONE};
+use umbrage_core::{Mesh, glam::Vec4};
+
+/// Declares `Edge` and what a light makes of one.
+pub(crate) const EDGES_WGSL: &str = include_str!("../wgsl/edges.wgsl");
+
+shader_struct! {
+    /// An edge between two vertices and its triangles, see `wgsl/edges.wgsl`.
+    pub(crate) struct Edge {
+        start: u32,
+        end: u32,
+        first: u32,
+        second: u32,
+    }
+}
+
+/// `Edge::second` where there is no second triangle.
+const NO_TRIANGLE: u32 = 0x7fff_ffff;
+/// Bit of `Edge::second`: both triangles run along the edge the same way.
+const SAME_DIRECTION: u32 = 0x8000_0000;
+
+/// Of all meshes of the scene, made once and shared by every light.
+pub(crate) struct Edges {
+    /// As `wgsl/edges.wgsl` declares it, for compute.
+    pub find: wgpu::BindGroup,
+    /// As `wgsl/extrude.wgsl` declares it, for drawing.
+    pub draw: wgpu::BindGroup,
+    meshes: Vec<MeshEdges>,
+    bytes: u64,
+}
+
+/// The edges of one mesh and where they lie in the shared buffers.
+pub(crate) struct MeshEdges {
+    pub adjacency: Adjacency,
+    pub first_edge: u32,
+    /// Planes lie in the order of the mesh's own triangles.
+    pub first_triangle: u32,
+    pub triangle_count: u32,
+    eye_tree: OnceLock<EyeTree>,
+}
+
+impl MeshEdges {
+    /// For counts that start at the eye; made when first asked for.
+    pub fn eye_tree(&self, mesh: &Mesh) -> &EyeTree {
+        self.eye_tree.get_or_init(|| EyeTree::new(mesh, &self.adjacency))
+    }
+}
+
+impl Edges {
+    pub(super) fn new(gpu: &Gpu, casters: &Casters) -> Result<Self, Error> {
+        let (mut edges, mut planes, mut meshes) = (Vec::<Edge>::new(), Vec::<Vec4>::new(), Vec::new());
+        for part in &casters.meshes {
+            let adjacency = Adjacency::of(&part.mesh);
+            let (first_edge, first_triangle) = (edges.len() as u32, planes.len() as u32);
+            let number = |t: u32| if t == NONE { NO_TRIANGLE } else { first_triangle + adjacency.numbers[t as usize] };
+            edges.extend(adjacency.edges.iter().map(|e| Edge {
+                start: part.base_vertex + e.vertices[0],
+                end: part.base_vertex + e.vertices[1],
+                first: number(e.triangles[0]),
+                second: number(e.triangles[1]) | if e.same_direction { SAME_DIRECTION } else { 0 },
+            }));
+            let triangle_count = part.mesh.triangle_count() as u32;
+            planes.resize((first_triangle + triangle_count) as usize, Vec4::ZERO);
+            for (plane, &t) in adjacency.planes.iter().zip(&adjacency.numbers) {
+                planes[(first_triangle + t) as usize] = *plane;
+            }
+            meshes.push(MeshEdges { adjacency, first_edge, first_triangle, triangle_count, eye_tree: OnceLock::new() });
+        }
+        let limit = gpu.device.limits().max_storage_buffer_binding_size;
+        let sizes = [edges.len() as u64 * 16, planes.len() as u64 * 16, casters.positions.size(), casters.indices.size()];
+        if let Some(&size) = sizes.iter().find(|size| **size > limit) {
+            return Err(Error::Size { what: "a buffer of edges, planes or vertices".into(), size, limit });
+        }
+        let edges = gpu.buffer("edges", &edges, wgpu::BufferUsages::STORAGE);
+        let planes = gpu.buffer("planes", &planes, wgpu::BufferUsages::STORAGE);
+        let of_edges = [edges.as_entire_binding(), planes.as_entire_binding()];
+        let of_vertices = [&casters.positions, &casters.indices, &casters.instances].map(|b| b.as_entire_binding());
+        Ok(Self {
+            find: bind(gpu, "edges", &Self::find_layout(gpu), &of_edges),
+            draw: bind(gpu, "edges", &Self::draw_layout(gpu), &[&of_edges[..], &of_vertices].concat()),
+            meshes,
+            bytes: edges.size() + planes.size(),
+        })
+    }
+
+    pub fn find_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+        layout(gpu, "edges", wgpu::ShaderStages::COMPUTE, &[STORAGE; 2])
+    }
+
+    pub fn draw_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+        layout(gpu, "edges", wgpu::ShaderStages::VERTEX, &[STORAGE; 5])
+    }
+
+    /// Of a mesh, by its number in the scene.
+    pub fn of_mesh(&self, mesh: u32) -> &MeshEdges {
+        &self.meshes[mesh as usize]
+    }
+
+    /// GPU memory, once for all lights.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+}
+
+/// A storage buffer that is only read.
+pub(crate) const STORAGE: wgpu::BindingType = wgpu::BindingType::Buffer {
+    ty: wgpu::BufferBindingType::Storage { read_only: true },
+    has_dynamic_offset: false,
+    min_binding_size: None,
+};

@@ -1,0 +1,91 @@
+//! Finding silhouettes by compute.
+
+use super::work::{Buffers, Work, vertices};
+use super::{FIND_SHADER, Part, Shape};
+use crate::casters::{Edges, STORAGE};
+use crate::fullscreen::{UNIFORM, layout};
+use crate::shader::shader_struct;
+use crate::{gpu::Gpu, passes::Passes};
+
+shader_struct! {
+    /// See `wgsl/find_silhouettes.wgsl`.
+    pub(crate) struct FindSilhouettes {
+        edge_chunks: u32,
+        triangle_chunks: u32,
+        vertices_per_side: u32,
+        vertices_per_cap: u32,
+        weighted: u32,
+        pad_a: u32,
+        pad_b: u32,
+        pad_c: u32,
+    }
+}
+
+/// Bytes of the arguments of an indirect draw.
+pub(super) const ARGUMENTS: u64 = size_of::<wgpu::util::DrawIndirectArgs>() as u64;
+
+/// Workgroups in a row, the most that every adapter allows.
+const ROW: u32 = 65_535;
+
+pub(super) struct Find {
+    layout: wgpu::BindGroupLayout,
+    sides: wgpu::ComputePipeline,
+    caps: wgpu::ComputePipeline,
+}
+
+impl Find {
+    pub fn new(gpu: &Gpu) -> Self {
+        let written = wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: false },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        let bindings = [STORAGE, STORAGE, written, written, UNIFORM];
+        let layout = layout(gpu, "find silhouettes", wgpu::ShaderStages::COMPUTE, &bindings);
+        let module = FIND_SHADER.module(gpu);
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            bind_group_layouts: &[Some(&layout), Some(&Edges::find_layout(gpu))],
+            ..Default::default()
+        });
+        let pipeline = |entry| {
+            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(entry),
+                layout: Some(&pipeline_layout),
+                module: &module,
+                entry_point: Some(entry),
+                compilation_options: Default::default(),
+                cache: None,
+            })
+        };
+        Self { sides: pipeline("find_sides"), caps: pipeline("find_caps"), layout }
+    }
+
+    pub fn layout(&self) -> &wgpu::BindGroupLayout {
+        &self.layout
+    }
+
+    pub fn record(&self, passes: &mut Passes<'_>, buffers: &Buffers, edges: &Edges, work: &Work, shape: Shape) {
+        let Some(bind_group) = &buffers.find else { return };
+        let triangle_chunks = work.chunks.len() as u32 - work.edge_chunks;
+        let uniform = FindSilhouettes {
+            edge_chunks: work.edge_chunks,
+            triangle_chunks,
+            vertices_per_side: vertices(Part::PassSides, shape),
+            vertices_per_cap: vertices(Part::Caps, shape),
+            weighted: shape.weighted.into(),
+            ..FindSilhouettes::default()
+        };
+        passes.upload(&buffers.find_uniform, bytemuck::bytes_of(&uniform));
+        let arguments = Part::ALL.map(|part| [0, 1, work.first(part) * vertices(part, shape), 0]);
+        passes.upload(&buffers.arguments, bytemuck::cast_slice(&arguments));
+        let mut pass = passes.compute("silhouettes");
+        pass.set_bind_group(0, bind_group, &[]);
+        pass.set_bind_group(1, &edges.find, &[]);
+        for (pipeline, groups) in [(&self.sides, work.edge_chunks), (&self.caps, triangle_chunks)] {
+            if groups > 0 {
+                pass.set_pipeline(pipeline);
+                pass.dispatch_workgroups(groups.min(ROW), groups.div_ceil(ROW), 1);
+            }
+        }
+    }
+}

@@ -1,0 +1,305 @@
+//! The edges and triangles of casters that bound their shadows under one light, found on the CPU, in vertex shaders, or by
+//! compute and drawn indirectly; with the vertex shaders that extrude them.
+//!
+//! Casters are described in [`Caster`]s, their edges in chunks of 64 that name their caster. What is drawn is a list of
+//! 32-bit entries, so that the CPU touches no edge in the compute path, whatever the number of casters.
+
+mod find;
+mod work;
+
+use crate::casters::{EDGES_WGSL, Edge, Edges, INSTANCES_WGSL, Instance, STORAGE};
+use crate::fullscreen::{UNIFORM, layout};
+use crate::shader::{HostLayout, Shader, shader_struct};
+use crate::{casters::Casters, error::Error, gpu::Gpu, passes::Passes};
+use find::Find;
+use umbrage_core::glam::{DMat4, DVec4};
+use umbrage_core::silhouette::{Rule, light_in_mesh};
+use work::{Buffers, Work};
+
+/// Extrudes what was found; a technique adds fragment shaders.
+pub(crate) const EXTRUDE_PARTS: [&str; 3] = [INSTANCES_WGSL, EDGES_WGSL, include_str!("../wgsl/extrude.wgsl")];
+
+/// Finds what bounds a shadow, by compute.
+pub(crate) const FIND_SHADER: Shader = Shader {
+    name: "find silhouettes",
+    parts: &[EDGES_WGSL, include_str!("../wgsl/find_silhouettes.wgsl")],
+    layouts: &[Edge::LAYOUT, Caster::LAYOUT, find::FindSilhouettes::LAYOUT],
+};
+
+/// Host structs that [`EXTRUDE_PARTS`] declare.
+pub(crate) const EXTRUDE_LAYOUTS: &[HostLayout] =
+    &[Edge::LAYOUT, Caster::LAYOUT, Instance::LAYOUT, Extrusion::LAYOUT];
+
+shader_struct! {
+    /// A caster under one light, see `wgsl/edges.wgsl`.
+    pub(crate) struct Caster {
+        light: [f32; 4],
+        first_edge: u32,
+        edge_count: u32,
+        edge_chunk: u32,
+        first_triangle: u32,
+        triangle_count: u32,
+        triangle_chunk: u32,
+        first_index: u32,
+        base_vertex: u32,
+        instance: u32,
+        flags: u32,
+        reach: f32,
+        pad: u32,
+    }
+}
+
+shader_struct! {
+    /// What the vertex shaders need of camera and light, see `wgsl/extrude.wgsl`.
+    pub(crate) struct Extrusion {
+        clip_from_world: [[f32; 4]; 4],
+        light: [f32; 4],
+    }
+}
+
+/// Bits of `Caster::flags`.
+const AWAY: u32 = 1;
+const MIRRORED: u32 = 2;
+const Z_FAIL: u32 = 4;
+const LIGHT_CAP: u32 = 8;
+const DARK_CAP: u32 = 16;
+
+/// Edges, or triangles, of one caster that go together.
+const CHUNK: u32 = 64;
+
+/// Where silhouettes are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Extrude {
+    /// By compute shaders that list them on the GPU.
+    Compute,
+    /// Every edge is drawn, and vertex shaders collapse those that bound no shadow.
+    Vertex,
+    /// By the CPU, every frame.
+    Cpu,
+}
+
+/// A caster to extrude.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Throw {
+    /// Its number in [`Casters::placed`].
+    pub place: u32,
+    pub rule: Rule,
+    /// Counted from infinity instead of from the eye; needs caps.
+    pub z_fail: bool,
+    pub light_cap: bool,
+    pub dark_cap: bool,
+    /// Where the shadow ends, metres from the light; 0 for nowhere.
+    pub reach: f32,
+}
+
+/// How sides and caps are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Shape {
+    /// Of a light infinitely far away: triangles that meet there, and no dark caps.
+    pub parallel: bool,
+    /// Some cap is a dark one.
+    pub dark_caps: bool,
+    /// Sides that count twice are drawn once, with that weight.
+    pub weighted: bool,
+}
+
+impl Shape {
+    fn vertices_per_side(self) -> u32 {
+        if self.parallel { 3 } else { 6 }
+    }
+
+    fn vertices_per_cap(self) -> u32 {
+        if self.dark_caps { 6 } else { 3 }
+    }
+}
+
+/// What the user of silhouettes chooses of their [`Shape`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Style {
+    /// See [`Shape::weighted`].
+    pub weighted: bool,
+    /// Parallel light has quads, too.
+    pub quads: bool,
+}
+
+/// What is drawn in one call.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// Sides of casters that are counted from the eye.
+    PassSides,
+    /// Sides of casters that are counted from infinity.
+    FailSides,
+    /// Caps of the latter.
+    Caps,
+}
+
+impl Part {
+    pub const ALL: [Self; 3] = [Self::PassSides, Self::FailSides, Self::Caps];
+}
+
+/// Silhouettes of one light's casters.
+pub(crate) struct Silhouettes {
+    extrude: Extrude,
+    find: Option<Find>,
+    work: Work,
+    shape: Shape,
+    extrusion: Extrusion,
+    draw_layout: wgpu::BindGroupLayout,
+    buffers: Option<Buffers>,
+}
+
+impl Silhouettes {
+    /// Makes pipelines; buffers follow.
+    pub fn new(gpu: &Gpu, extrude: Extrude) -> Self {
+        let storage = [STORAGE; 3];
+        Self {
+            extrude,
+            find: (extrude == Extrude::Compute).then(|| Find::new(gpu)),
+            work: Work::default(),
+            shape: Shape { parallel: false, dark_caps: false, weighted: false },
+            extrusion: Extrusion::default(),
+            draw_layout: layout(gpu, "silhouettes", wgpu::ShaderStages::VERTEX, &[&storage[..], &[UNIFORM]].concat()),
+            buffers: None,
+        }
+    }
+
+    /// The layout of the bind group that the vertex shaders take as group 0; group 1 is [`Edges::draw_layout`].
+    pub fn layout(&self) -> &wgpu::BindGroupLayout {
+        &self.draw_layout
+    }
+
+    /// Names of the vertex shaders for sides and for caps.
+    pub fn entries(&self) -> [&'static str; 2] {
+        if self.extrude == Extrude::Vertex { ["any_side", "any_cap"] } else { ["listed_side", "listed_cap"] }
+    }
+
+    /// What was prepared.
+    pub fn shape(&self) -> Shape {
+        self.shape
+    }
+
+    /// Describes the casters of a frame: first all that are counted from the eye, then the others. `light`: its centre,
+    /// homogeneous.
+    ///
+    /// # Errors
+    /// [`Error::Size`] where there are too many edges.
+    pub fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        casters: &Casters,
+        clip_from_world: &DMat4,
+        light: DVec4,
+        throws: &[Throw],
+        style: Style,
+    ) -> Result<(), Error> {
+        let edges = casters.edges(gpu)?;
+        let origin = casters.origin();
+        self.shape = Shape {
+            parallel: light.w == 0.0 && !style.quads,
+            dark_caps: throws.iter().any(|t| t.z_fail && t.dark_cap),
+            weighted: style.weighted,
+        };
+        let clip_from_origin = *clip_from_world * DMat4::from_translation(origin);
+        self.extrusion = Extrusion {
+            clip_from_world: clip_from_origin.as_mat4().to_cols_array_2d(),
+            light: (light.truncate() - origin * light.w).extend(light.w).as_vec4().to_array(),
+        };
+        self.work.clear();
+        for throw in throws {
+            self.work.add(casters, edges, light, throw, self.shape.weighted);
+        }
+        self.work.finish(self.shape)?;
+        if self.extrude == Extrude::Cpu {
+            self.work.list(edges, casters, throws, self.shape);
+        }
+        self.make_room(gpu)
+    }
+
+    fn make_room(&mut self, gpu: &Gpu) -> Result<(), Error> {
+        let needs = self.work.needs(self.extrude != Extrude::Vertex);
+        if self.buffers.as_ref().is_none_or(|b| !b.hold(&needs)) {
+            let find = self.find.as_ref().map(Find::layout);
+            self.buffers = Some(Buffers::new(gpu, &needs, &self.draw_layout, find)?);
+        }
+        Ok(())
+    }
+
+    /// Uploads, and finds silhouettes where that is done by compute. Before the pass that draws.
+    pub fn record(&self, passes: &mut Passes<'_>, edges: &Edges) {
+        let Some(buffers) = &self.buffers else { return };
+        passes.upload(&buffers.extrusion, bytemuck::bytes_of(&self.extrusion));
+        passes.upload(&buffers.casters, bytemuck::cast_slice(&self.work.casters));
+        passes.upload(&buffers.chunks, bytemuck::cast_slice(&self.work.chunks));
+        match (self.extrude, &self.find) {
+            (Extrude::Cpu, _) => passes.upload(&buffers.list, bytemuck::cast_slice(&self.work.entries)),
+            (Extrude::Compute, Some(find)) => find.record(passes, buffers, edges, &self.work, self.shape),
+            _ => (),
+        }
+    }
+
+    /// Draws a part with the pipeline that is set. True where there was something to draw.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, edges: &Edges, part: Part) {
+        let Some(buffers) = &self.buffers else { return };
+        pass.set_bind_group(0, &buffers.draw, &[]);
+        pass.set_bind_group(1, &edges.draw, &[]);
+        match self.extrude {
+            Extrude::Compute => pass.draw_indirect(&buffers.arguments, part as u64 * find::ARGUMENTS),
+            Extrude::Cpu => pass.draw(self.work.listed(part, self.shape), 0..1),
+            Extrude::Vertex => pass.draw(self.work.all(part, self.shape), 0..self.work.repeats(part, self.shape)),
+        }
+    }
+
+    /// True where a part has nothing to draw, as far as the CPU knows.
+    pub fn is_empty(&self, part: Part) -> bool {
+        self.work.all(part, self.shape).is_empty()
+    }
+
+    /// Bytes of GPU memory, without those of [`Edges`].
+    pub fn bytes(&self) -> u64 {
+        self.buffers.as_ref().map_or(0, Buffers::bytes)
+    }
+
+    /// Edges, and triangles of caps, that are looked at.
+    pub fn looked_at(&self) -> (u64, u64) {
+        self.work.looked_at()
+    }
+
+    /// Numbers of sides (from the eye, from infinity) and caps that were found, where the CPU found them.
+    pub fn found(&self) -> Option<[u32; 3]> {
+        (self.extrude == Extrude::Cpu).then(|| self.work.counts())
+    }
+
+    /// The arguments of the indirect draws, to be read back; `None` where silhouettes are not found by compute.
+    pub fn arguments(&self) -> Option<&wgpu::Buffer> {
+        let buffers = self.buffers.as_ref().filter(|_| self.extrude == Extrude::Compute)?;
+        Some(&buffers.arguments)
+    }
+}
+
+/// A caster as the shaders see it; chunks are filled in later.
+fn caster(casters: &Casters, edges: &Edges, light: DVec4, throw: &Throw) -> Caster {
+    let placed = &casters.placed()[throw.place as usize];
+    let part = &casters.meshes()[placed.mesh as usize];
+    let mesh = edges.of_mesh(placed.mesh);
+    let is_mirrored = placed.world_from_mesh.matrix3.determinant() < 0.0;
+    let flags = [
+        (throw.rule == Rule::Away, AWAY),
+        (is_mirrored, MIRRORED),
+        (throw.z_fail, Z_FAIL),
+        (throw.light_cap, LIGHT_CAP),
+        (throw.dark_cap, DARK_CAP),
+    ];
+    Caster {
+        light: light_in_mesh(light, &placed.mesh_from_world, mesh.adjacency.center).to_array(),
+        first_edge: mesh.first_edge,
+        edge_count: mesh.adjacency.edges.len() as u32,
+        first_triangle: mesh.first_triangle,
+        triangle_count: mesh.triangle_count,
+        first_index: part.first_index,
+        base_vertex: part.base_vertex,
+        instance: placed.number,
+        flags: flags.into_iter().filter(|(on, _)| *on).map(|(_, bit)| bit).sum(),
+        reach: throw.reach,
+        ..Caster::default()
+    }
+}

@@ -1,0 +1,230 @@
+//! What a frame's casters come to: their chunks, room for what may be found, and the CPU's own search.
+
+use super::{CHUNK, Caster, Extrusion, LIGHT_CAP, DARK_CAP, Part, Shape, Throw, Z_FAIL, caster, find};
+use crate::casters::{Casters, Edges};
+use crate::fullscreen::bind;
+use crate::{error::Error, gpu::Gpu};
+use std::ops::Range;
+use umbrage_core::glam::{DVec4, Vec3, Vec4};
+use umbrage_core::silhouette::{Rule, facing, multiplicity};
+
+/// A frame's casters. Keeps its memory.
+#[derive(Default)]
+pub(super) struct Work {
+    pub casters: Vec<Caster>,
+    /// The caster of each chunk of edges, then of triangles.
+    pub chunks: Vec<u32>,
+    /// Chunks of edges of casters counted from the eye, of all casters.
+    pass_chunks: u32,
+    pub edge_chunks: u32,
+    /// Most entries that each part may need.
+    room: [u32; 3],
+    /// What the CPU found: lists of the three parts, one after the other as `room` lays them out.
+    pub entries: Vec<u32>,
+    counts: [u32; 3],
+    edges: u64,
+    triangles: u64,
+}
+
+/// Bytes that buffers need to have.
+pub(super) struct Needs {
+    casters: u64,
+    chunks: u64,
+    list: u64,
+}
+
+/// More entries than this do not fit their numbering.
+const MOST: u64 = 1 << 29;
+
+impl Work {
+    pub fn clear(&mut self) {
+        self.casters.clear();
+        self.chunks.clear();
+        (self.pass_chunks, self.edge_chunks) = (0, 0);
+        self.room = [0; 3];
+        (self.edges, self.triangles) = (0, 0);
+    }
+
+    pub fn add(&mut self, casters: &Casters, edges: &Edges, light: DVec4, throw: &Throw, weighted: bool) {
+        let mut new = caster(casters, edges, light, throw);
+        new.edge_chunk = self.edge_chunks;
+        let chunks = new.edge_count.div_ceil(CHUNK);
+        self.chunks.extend(std::iter::repeat_n(self.casters.len() as u32, chunks as usize));
+        self.edge_chunks += chunks;
+        if !throw.z_fail {
+            self.pass_chunks = self.edge_chunks;
+        }
+        // Without weights a side that counts twice is there twice; under `Rule::Away` none does.
+        let times = if weighted || throw.rule == Rule::Away { 1 } else { 2 };
+        let part = if throw.z_fail { Part::FailSides } else { Part::PassSides };
+        let room = &mut self.room[part as usize];
+        *room = room.saturating_add(times * new.edge_count);
+        self.edges += u64::from(new.edge_count);
+        self.casters.push(new);
+    }
+
+    /// Adds the chunks of triangles.
+    pub fn finish(&mut self, shape: Shape) -> Result<(), Error> {
+        for (number, caster) in (0..).zip(&mut self.casters) {
+            caster.triangle_chunk = self.chunks.len() as u32;
+            let has_cap = caster.flags & LIGHT_CAP != 0 || (shape.dark_caps && caster.flags & DARK_CAP != 0);
+            if caster.flags & Z_FAIL != 0 && has_cap {
+                let chunks = caster.triangle_count.div_ceil(CHUNK);
+                self.chunks.extend(std::iter::repeat_n(number, chunks as usize));
+                self.room[Part::Caps as usize] += caster.triangle_count;
+                self.triangles += u64::from(caster.triangle_count);
+            }
+        }
+        let entries = self.room.iter().map(|r| u64::from(*r)).sum::<u64>();
+        let size = entries.max(self.chunks.len() as u64 * u64::from(CHUNK));
+        if size > MOST {
+            return Err(Error::Size { what: "the edges of all casters".into(), size, limit: MOST });
+        }
+        Ok(())
+    }
+
+    /// Finds everything on the CPU.
+    pub fn list(&mut self, edges: &Edges, casters: &Casters, throws: &[Throw], shape: Shape) {
+        self.entries.clear();
+        self.entries.resize(self.room.iter().sum::<u32>() as usize, 0);
+        self.counts = [0; 3];
+        for (i, throw) in throws.iter().enumerate() {
+            let of = self.casters[i];
+            let mesh = edges.of_mesh(casters.placed()[throw.place as usize].mesh);
+            let light = Vec4::from_array(of.light);
+            let part = if throw.z_fail { Part::FailSides } else { Part::PassSides };
+            for (slot, edge) in (of.edge_chunk * CHUNK..).zip(&mesh.adjacency.edges) {
+                let times = multiplicity(edge, &mesh.adjacency.planes, light, throw.rule);
+                if times != 0 {
+                    let twice = times.abs() == 2;
+                    let entry = slot << 2 | u32::from(twice) << 1 | u32::from(times < 0);
+                    self.push(part, entry, if twice && !shape.weighted { 2 } else { 1 });
+                }
+            }
+            let has_chunks = self.chunks.get(of.triangle_chunk as usize) == Some(&(i as u32));
+            if !throw.z_fail || !has_chunks || of.triangle_chunk < self.edge_chunks {
+                continue;
+            }
+            for (&number, plane) in mesh.adjacency.numbers.iter().zip(&mesh.adjacency.planes) {
+                let f = facing(*plane, light);
+                if plane.truncate() != Vec3::ZERO && !(f > 0 && throw.rule == Rule::Away) {
+                    self.push(Part::Caps, (of.triangle_chunk * CHUNK + number) << 2 | u32::from(f < 0), 1);
+                }
+            }
+        }
+    }
+
+    fn push(&mut self, part: Part, entry: u32, times: u32) {
+        for _ in 0..times {
+            let at = self.first(part) + self.counts[part as usize];
+            self.entries[at as usize] = entry;
+            self.counts[part as usize] += 1;
+        }
+    }
+
+    /// Where the list of a part starts.
+    pub fn first(&self, part: Part) -> u32 {
+        self.room[..part as usize].iter().sum()
+    }
+
+    /// Vertices of what the CPU found.
+    pub fn listed(&self, part: Part, shape: Shape) -> Range<u32> {
+        let per = vertices(part, shape);
+        let first = self.first(part);
+        first * per..(first + self.counts[part as usize]) * per
+    }
+
+    /// Vertices of all edges or triangles of a part.
+    pub fn all(&self, part: Part, shape: Shape) -> Range<u32> {
+        let chunks = match part {
+            Part::PassSides => 0..self.pass_chunks,
+            Part::FailSides => self.pass_chunks..self.edge_chunks,
+            Part::Caps => self.edge_chunks..self.chunks.len() as u32,
+        };
+        let per = CHUNK * vertices(part, shape);
+        chunks.start * per..chunks.end * per
+    }
+
+    /// How often every edge is drawn for those that count twice.
+    pub fn repeats(&self, part: Part, shape: Shape) -> u32 {
+        let once = part == Part::Caps || shape.weighted || self.casters.iter().all(|c| c.flags & super::AWAY != 0);
+        if once { 1 } else { 2 }
+    }
+
+    pub fn needs(&self, listed: bool) -> Needs {
+        let entries = if listed { self.room.iter().map(|r| u64::from(*r)).sum() } else { 0 };
+        Needs {
+            casters: self.casters.len() as u64 * size_of::<Caster>() as u64,
+            chunks: self.chunks.len() as u64 * 4,
+            list: entries * 4,
+        }
+    }
+
+    pub fn looked_at(&self) -> (u64, u64) {
+        (self.edges, self.triangles)
+    }
+
+    pub fn counts(&self) -> [u32; 3] {
+        self.counts
+    }
+}
+
+pub(super) fn vertices(part: Part, shape: Shape) -> u32 {
+    if part == Part::Caps { shape.vertices_per_cap() } else { shape.vertices_per_side() }
+}
+
+/// What a frame's casters and lists are uploaded to.
+pub(super) struct Buffers {
+    pub casters: wgpu::Buffer,
+    pub chunks: wgpu::Buffer,
+    pub list: wgpu::Buffer,
+    pub arguments: wgpu::Buffer,
+    pub find_uniform: wgpu::Buffer,
+    pub extrusion: wgpu::Buffer,
+    pub draw: wgpu::BindGroup,
+    pub find: Option<wgpu::BindGroup>,
+}
+
+impl Buffers {
+    pub fn new(
+        gpu: &Gpu,
+        needs: &Needs,
+        draw_layout: &wgpu::BindGroupLayout,
+        find_layout: Option<&wgpu::BindGroupLayout>,
+    ) -> Result<Self, Error> {
+        use wgpu::BufferUsages as Usage;
+        let limit = gpu.device.limits().max_storage_buffer_binding_size;
+        let largest = needs.list.max(needs.casters).max(needs.chunks);
+        if largest > limit {
+            return Err(Error::Size { what: "a list of silhouettes".into(), size: largest, limit });
+        }
+        // Half as much again, so that a moving camera does not make it grow all the time.
+        let room = |bytes: u64| (bytes + bytes / 2).next_multiple_of(256).clamp(256, limit);
+        let buffer = |label, size, usage| {
+            let usage = usage | Usage::COPY_DST;
+            gpu.device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
+        };
+        let casters = buffer("casters of a light", room(needs.casters), Usage::STORAGE);
+        let chunks = buffer("chunks", room(needs.chunks), Usage::STORAGE);
+        let list = buffer("silhouettes", room(needs.list), Usage::STORAGE);
+        let indirect = Usage::STORAGE | Usage::INDIRECT | Usage::COPY_SRC;
+        let arguments = buffer("draws of silhouettes", 3 * find::ARGUMENTS, indirect);
+        let find_uniform = buffer("find silhouettes", size_of::<find::FindSilhouettes>() as u64, Usage::UNIFORM);
+        let extrusion = buffer("extrusion", size_of::<Extrusion>() as u64, Usage::UNIFORM);
+        let shared = [&casters, &chunks, &list].map(|b| b.as_entire_binding());
+        let draw_extra = [extrusion.as_entire_binding()];
+        let find_extra = [arguments.as_entire_binding(), find_uniform.as_entire_binding()];
+        let draw = bind(gpu, "silhouettes", draw_layout, &[&shared[..], &draw_extra].concat());
+        let find = find_layout.map(|l| bind(gpu, "find silhouettes", l, &[&shared[..], &find_extra].concat()));
+        Ok(Self { draw, find, casters, chunks, list, arguments, find_uniform, extrusion })
+    }
+
+    pub fn hold(&self, needs: &Needs) -> bool {
+        self.casters.size() >= needs.casters && self.chunks.size() >= needs.chunks && self.list.size() >= needs.list
+    }
+
+    pub fn bytes(&self) -> u64 {
+        let all = [&self.casters, &self.chunks, &self.list, &self.arguments, &self.find_uniform, &self.extrusion];
+        all.iter().map(|b| b.size()).sum()
+    }
+}

@@ -1,0 +1,116 @@
+//! Stencil shadow volumes: exact hard shadows by counting how many shadows each visible point is in.
+//!
+//! Sources: Crow 1977; Heidmann 1991; PX 3.2–3.4, 5; SG "Practical and Robust Stenciled Shadow Volumes"; ZA 2.4; GG 9.
+//! Multiplicity of edges: Bergeron 1986; Aldridge and Woods 2004; Kim 2008.
+
+mod counter;
+mod options;
+mod pipelines;
+mod select;
+mod technique;
+
+use crate::depth_maps::Eye;
+use crate::params::{Param, ParamKind};
+use crate::shader::{FULLSCREEN, RECEIVERS, Shader};
+use crate::silhouettes::{EXTRUDE_LAYOUTS, EXTRUDE_PARTS, FIND_SHADER};
+use crate::technique::TechniqueInfo;
+use umbrage_core::LightKinds;
+
+const COUNT_SHADER: Shader = Shader {
+    name: "volumes",
+    parts: &[EXTRUDE_PARTS[0], EXTRUDE_PARTS[1], EXTRUDE_PARTS[2], include_str!("count.wgsl")],
+    layouts: EXTRUDE_LAYOUTS,
+};
+
+const RESOLVE_SHADER: Shader =
+    Shader { name: "volume visibility", parts: &[FULLSCREEN, include_str!("resolve.wgsl")], layouts: &[] };
+
+const DEPTH_SHADER: Shader = Shader {
+    name: "volume depth",
+    parts: &[FULLSCREEN, RECEIVERS, include_str!("depth.wgsl")],
+    layouts: &[Eye::LAYOUT, counter::DepthBounds::LAYOUT],
+};
+
+const PARAMS: &[Param] = &[
+    Param {
+        name: "count",
+        help: "From where the shadows that a point is in are counted: from the eye, starting with those the eye is in; from \
+               the eye where a caster can't shadow it, else from infinity; from infinity; from the eye, starting with 0 \
+               (wrong in shadow); only whether their number is odd (wrong where shadows overlap).",
+        unit: "",
+        kind: ParamKind::Choice { values: &["z-pass-eye", "auto", "z-fail", "z-pass", "xor"] },
+    },
+    Param {
+        name: "extrude",
+        help: "Where silhouettes are found: by compute shaders, in vertex shaders that look at every edge, or by the CPU.",
+        unit: "",
+        kind: ParamKind::Choice { values: &["compute", "vertex", "cpu"] },
+    },
+    Param {
+        name: "counter",
+        help: "What counts: 8 bits of stencil, which take 256 shadows on one point for none; floats, which hold any number; \
+               or stencil where the casters can't have 256 layers and floats elsewhere.",
+        unit: "",
+        kind: ParamKind::Choice { values: &["auto", "stencil", "float"] },
+    },
+    Param {
+        name: "stencil",
+        help: "Whether the stencil counts fronts and backs at once or one after the other.",
+        unit: "",
+        kind: ParamKind::Choice { values: &["two-sided", "two-pass"] },
+    },
+    Param {
+        name: "reach",
+        help: "Where shadows end: nowhere, or where the light does (the picture is the same, visibility beyond is not).",
+        unit: "",
+        kind: ParamKind::Choice { values: &["infinite", "finite"] },
+    },
+    Param {
+        name: "cull",
+        help: "What is left out because it changes nothing: everything that can be, nothing, or one kind: casters that the \
+               light does not reach, casters that shadow nothing in view, caps out of view, pixels beyond the light (the \
+               light's reach counts with `reach = finite`).",
+        unit: "",
+        kind: ParamKind::Choice { values: &["all", "none", "light", "view", "caps", "scissor"] },
+    },
+    Param {
+        name: "depth-bounds",
+        help: "Counts nothing at points beyond the light's range, for one more pass over the depth (`reach = finite`).",
+        unit: "",
+        kind: ParamKind::Switch { default: false },
+    },
+    Param {
+        name: "parallel",
+        help: "Sides of parallel light: triangles that meet infinitely far away, or quads and dark caps as for other lights.",
+        unit: "",
+        kind: ParamKind::Choice { values: &["triangles", "quads"] },
+    },
+    Param {
+        name: "budget",
+        help: "At most so many casters throw shadows, the most important ones by size on the screen; 0: all.",
+        unit: "casters",
+        kind: ParamKind::Int { min: 0, max: 1_000_000, default: 0 },
+    },
+    Param {
+        name: "unseen",
+        help: "For hosts that cull faces or hide casters from the camera: counts all from infinity, with both sides of meshes.",
+        unit: "",
+        kind: ParamKind::Switch { default: false },
+    },
+];
+
+/// See the module.
+pub const INFO: TechniqueInfo = TechniqueInfo {
+    id: "volume",
+    title: "Shadow volumes",
+    summary: "Counts how many casters' shadows each point is in: hard shadows exact to the pixel. Alpha-masked triangles cast \
+              whole.",
+    source: "PX 3.2–3.4, 5; SG \"Practical and Robust Stenciled Shadow Volumes\"; ZA 2.4; GG 9",
+    lights: LightKinds::ALL,
+    features: wgpu::Features::empty(),
+    hard: true,
+    params: PARAMS,
+    shaders: &[FIND_SHADER, COUNT_SHADER, RESOLVE_SHADER, DEPTH_SHADER],
+    readme: include_str!("README.md"),
+    make: |gpu, settings| Ok(Box::new(technique::Volume::new(gpu, settings))),
+};

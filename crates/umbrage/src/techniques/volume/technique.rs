@@ -1,0 +1,156 @@
+//! A frame: choose casters, find silhouettes, count, resolve.
+
+use super::counter::Counter;
+use super::options::{Count, CounterKind, Options};
+use super::pipelines::{Key, Pipelines, Test};
+use super::select::Selection;
+use crate::casters::Edges;
+use crate::params::Settings;
+use crate::silhouettes::{Part, Silhouettes, Style};
+use crate::technique::{Stats, Technique};
+use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+
+pub(super) struct Volume {
+    options: Options,
+    silhouettes: Silhouettes,
+    pipelines: Pipelines,
+    counter: Counter,
+    selection: Selection,
+    kind: CounterKind,
+    casting: u32,
+    draws: u32,
+}
+
+/// Stencil wraps at this many shadows.
+const STENCIL_LAYERS: u32 = 256;
+
+impl Volume {
+    pub fn new(gpu: &Gpu, settings: &Settings) -> Self {
+        let options = Options::of(settings);
+        let silhouettes = Silhouettes::new(gpu, options.extrude);
+        Self {
+            pipelines: Pipelines::new(gpu, silhouettes.layout(), silhouettes.entries()),
+            options,
+            silhouettes,
+            counter: Counter::new(),
+            selection: Selection::default(),
+            kind: CounterKind::Float,
+            casting: 0,
+            draws: 0,
+        }
+    }
+
+    /// Stencil where it surely does not wrap, and where there is one.
+    fn choose_counter(&self, gpu: &Gpu) -> Result<CounterKind, Error> {
+        let has_stencil = gpu.has(wgpu::Features::DEPTH32FLOAT_STENCIL8);
+        match self.options.counter {
+            Some(CounterKind::Stencil) if !has_stencil => Err(Error::Unsupported {
+                technique: super::INFO.id.into(),
+                what: "this adapter with a stencil counter, since it lacks DEPTH32FLOAT_STENCIL8; set counter=float".into(),
+            }),
+            Some(kind) => Ok(kind),
+            None if has_stencil && self.selection.layers < STENCIL_LAYERS => Ok(CounterKind::Stencil),
+            None => Ok(CounterKind::Float),
+        }
+    }
+
+    /// What is drawn, and how.
+    fn keys(&self) -> Vec<(Part, Key)> {
+        let silhouettes = &self.silhouettes;
+        let from_eye = if self.options.count == Count::Xor { Test::Parity } else { Test::Pass };
+        let faces: &[Option<wgpu::Face>] = if self.options.two_pass && self.kind == CounterKind::Stencil {
+            &[Some(wgpu::Face::Back), Some(wgpu::Face::Front)]
+        } else {
+            &[None]
+        };
+        let mut keys = Vec::with_capacity(6);
+        for &cull in faces {
+            for part in Part::ALL.into_iter().filter(|part| !silhouettes.is_empty(*part)) {
+                let test = if part == Part::PassSides { from_eye } else { Test::Fail };
+                let (target, shape, caps) = (self.counter.key, silhouettes.shape(), part == Part::Caps);
+                keys.push((part, Key { target, shape, test, caps, cull }));
+            }
+        }
+        keys
+    }
+
+    fn count_volumes(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges) -> u32 {
+        let silhouettes = &self.silhouettes;
+        silhouettes.record(passes, edges);
+        let keys = self.keys();
+        let Some(mut pass) = self.counter.begin(passes, view.receivers, self.selection.eye_count) else { return 0 };
+        if let Some([x, y, width, height]) = self.selection.scissor {
+            pass.set_scissor_rect(x, y, width, height);
+        }
+        for (part, key) in &keys {
+            if let Some(pipeline) = self.pipelines.counting(*key) {
+                pass.set_pipeline(pipeline);
+                silhouettes.draw(&mut pass, edges, *part);
+            }
+        }
+        keys.len() as u32
+    }
+
+    fn resolve(&self, passes: &mut Passes<'_>, visibility: &VisibilityTarget) {
+        let parity = self.options.count == Count::Xor;
+        let pipeline = self.pipelines.resolving(self.counter.key, parity);
+        let mut pass = passes.render("visibility", &[visibility.overwrite()], self.counter.read_only());
+        let Some(pipeline) = pipeline else { return };
+        if let Some([x, y, width, height]) = self.selection.scissor {
+            pass.set_scissor_rect(x, y, width, height);
+        }
+        pass.set_pipeline(pipeline);
+        if let Some(counts) = self.counter.read_counts() {
+            pass.set_bind_group(0, counts, &[]);
+        }
+        pass.draw(0..3, 0..1);
+    }
+}
+
+impl Technique for Volume {
+    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
+        let clamps = gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL);
+        let light = self.selection.choose(gpu, view, &self.options, clamps)?;
+        self.casting = view.casters.tree().len() as u32;
+        if self.selection.throws.is_empty() {
+            return Ok(());
+        }
+        self.kind = self.choose_counter(gpu)?;
+        let style = Style { weighted: self.kind == CounterKind::Float, quads: self.options.quads };
+        let clip_from_world = view.camera.clip_from_world();
+        self.silhouettes.prepare(gpu, view.casters, &clip_from_world, light, &self.selection.throws, style)?;
+        let bounded = self.options.depth_bounds && self.options.finite && light.w != 0.0;
+        let range = view.light.range.filter(|_| bounded);
+        self.counter.prepare(gpu, view, self.kind, range, &self.pipelines.read_counts);
+        self.pipelines.prepare_resolve(gpu, self.counter.key, self.options.count == Count::Xor);
+        for (_, key) in self.keys() {
+            self.pipelines.prepare(gpu, key);
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+        visibility.check(view.receivers)?;
+        self.draws = 0;
+        if self.selection.throws.is_empty() {
+            passes.render("visibility", &[visibility.overwrite()], None);
+            return Ok(());
+        }
+        let Some(edges) = view.casters.made_edges() else { return Ok(()) };
+        self.draws = self.count_volumes(passes, view, edges) + 1;
+        self.resolve(passes, visibility);
+        Ok(())
+    }
+
+    fn stats(&self) -> Stats {
+        let drawn = self.selection.throws.len() as u32;
+        let (edges, triangles) = self.silhouettes.looked_at();
+        Stats {
+            draws: self.draws,
+            triangles: 2 * edges + triangles,
+            casters_drawn: drawn,
+            casters_culled: self.casting.saturating_sub(drawn),
+            bytes: self.counter.bytes() + self.silhouettes.bytes(),
+        }
+    }
+}

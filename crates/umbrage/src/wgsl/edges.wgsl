@@ -1,0 +1,81 @@
+// Edges of meshes, and how often each of them bounds the shadow of a caster: once for every light-facing triangle that no
+// neighbour cancels, so that any triangle soup casts right (Bergeron 1986; Aldridge and Woods 2004; Kim 2008).
+
+struct Edge {
+    start: u32,
+    end: u32,
+    // The triangle that runs from start to end.
+    first: u32,
+    // The other one and SAME_DIRECTION, or NO_TRIANGLE.
+    second: u32,
+}
+
+// A caster under one light.
+struct Caster {
+    // The light in mesh space about the middle of the mesh; w = 0: the direction to it.
+    light: vec4f,
+    first_edge: u32,
+    edge_count: u32,
+    // Of its chunks of edges, the first.
+    edge_chunk: u32,
+    first_triangle: u32,
+    triangle_count: u32,
+    triangle_chunk: u32,
+    // Of its mesh in the index buffer, and what indices are relative to.
+    first_index: u32,
+    base_vertex: u32,
+    instance: u32,
+    flags: u32,
+    // Where its shadow ends, metres from the light; 0: nowhere.
+    reach: f32,
+    pad: u32,
+}
+
+// Only triangles that face away from the light throw the shadow; otherwise all do, turned to the light.
+const AWAY: u32 = 1u;
+const MIRRORED: u32 = 2u;
+const Z_FAIL: u32 = 4u;
+const LIGHT_CAP: u32 = 8u;
+const DARK_CAP: u32 = 16u;
+
+const NO_TRIANGLE: u32 = 0x7fffffffu;
+const SAME_DIRECTION: u32 = 0x80000000u;
+
+// Edges, and triangles, of a caster that go together; each chunk names its caster.
+const CHUNK: u32 = 64u;
+
+@group(0) @binding(0) var<storage, read> casters: array<Caster>;
+@group(0) @binding(1) var<storage, read> chunks: array<u32>;
+@group(1) @binding(0) var<storage, read> edges: array<Edge>;
+@group(1) @binding(1) var<storage, read> planes: array<vec4f>;
+
+// 1 where the light is in front of the plane or in it, −1 behind it.
+fn facing(plane: vec4f, light: vec4f) -> i32 {
+    return select(-1, 1, plane.x * light.x + plane.y * light.y + plane.z * light.z + plane.w * light.w >= 0.0);
+}
+
+// What a triangle adds to its edges; it is taken turned to the light.
+fn share(caster: u32, triangle: u32) -> i32 {
+    let f = facing(planes[triangle], casters[caster].light);
+    return select(f, 0, f > 0 && (casters[caster].flags & AWAY) != 0u);
+}
+
+// How often the edge bounds the shadow; negative where that runs from end to start.
+fn multiplicity(caster: u32, edge: Edge) -> i32 {
+    let one = share(caster, edge.first);
+    let other = edge.second & ~SAME_DIRECTION;
+    if other == NO_TRIANGLE {
+        return one;
+    }
+    let two = share(caster, other);
+    return one + select(-two, two, (edge.second & SAME_DIRECTION) != 0u);
+}
+
+// What is drawn, in 32 bits: chunk, place in it, and two bits: turned round, counts twice.
+fn side_entry(slot: u32, times: i32) -> u32 {
+    return (slot << 2u) | (u32(abs(times) == 2) << 1u) | u32(times < 0);
+}
+
+fn cap_entry(slot: u32, facing_away: bool) -> u32 {
+    return (slot << 2u) | u32(facing_away);
+}

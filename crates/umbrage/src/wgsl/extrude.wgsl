@@ -1,0 +1,134 @@
+// Shadow volumes as triangles: sides between an edge and its shadow, light caps, dark caps.
+//
+// All corners come from the same two functions, so that neighbours share them to the last bit and volumes are closed.
+
+struct Extrusion {
+    clip_from_world: mat4x4f,
+    // Relative to the same origin as instances; w = 0: the direction to it.
+    light: vec4f,
+}
+
+struct Corner {
+    @invariant @builtin(position) position: vec4f,
+    // How often it counts.
+    @location(0) @interpolate(flat) times: f32,
+}
+
+@group(0) @binding(2) var<storage, read> list: array<u32>;
+@group(0) @binding(3) var<uniform> extrusion: Extrusion;
+@group(1) @binding(2) var<storage, read> positions: array<f32>;
+@group(1) @binding(3) var<storage, read> indices: array<u32>;
+@group(1) @binding(4) var<storage, read> instances: array<Instance>;
+
+// Sides of a parallel light meet in one point infinitely far away: one triangle each, and no dark cap (GG 9.5.1).
+override PARALLEL: bool = false;
+override WEIGHTED: bool = false;
+// Caps have a dark one, too.
+override HAS_DARK_CAPS: bool = true;
+
+// Off the screen, so that the triangle is dropped.
+const NOWHERE: Corner = Corner(vec4f(2.0, 2.0, 0.0, 1.0), 0.0);
+
+fn light_corner(caster: u32, vertex: u32) -> vec3f {
+    let at = 3u * vertex;
+    return world_from_mesh(casters[caster].instance, vec3f(positions[at], positions[at + 1u], positions[at + 2u]));
+}
+
+// Where the shadow of a corner ends: infinitely far away (w = 0; GG 9.5.3), or at the caster's reach.
+fn dark_corner(caster: u32, p: vec3f) -> vec4f {
+    let away = p * extrusion.light.w - extrusion.light.xyz;
+    let reach = casters[caster].reach;
+    if reach == 0.0 {
+        return vec4f(away, 0.0);
+    }
+    return vec4f(extrusion.light.xyz + away * (max(reach, length(away)) / length(away)), 1.0);
+}
+
+fn on_screen(p: vec4f, times: f32) -> Corner {
+    return Corner(extrusion.clip_from_world * p, times);
+}
+
+// Corner 0…5 of a quad end, start, start's shadow, end's shadow, which is outside seen counter-clockwise.
+fn side_corner(entry: u32, corner: u32) -> Corner {
+    let slot = entry >> 2u;
+    let caster = chunks[slot / CHUNK];
+    let edge = edges[casters[caster].first_edge + slot - casters[caster].edge_chunk * CHUNK];
+    let is_turned = ((entry & 1u) != 0u) != ((casters[caster].flags & MIRRORED) != 0u);
+    // 0 end, 1 start, 2 dark start; 3 end, 4 dark start, 5 dark end.
+    let of_start = corner == 1u || corner == 2u || corner == 4u;
+    let p = light_corner(caster, select(edge.end, edge.start, of_start != is_turned));
+    let is_dark = corner == 2u || corner >= 4u;
+    let times = select(1.0, 2.0, WEIGHTED && (entry & 2u) != 0u);
+    if is_dark {
+        return on_screen(dark_corner(caster, p), times);
+    }
+    return on_screen(vec4f(p, 1.0), times);
+}
+
+// Corner 0…2 of the light cap, 3…5 of the dark one, which is turned round.
+fn cap_corner(entry: u32, corner: u32) -> Corner {
+    let slot = entry >> 2u;
+    let caster = chunks[slot / CHUNK];
+    let flags = casters[caster].flags;
+    let is_dark = corner >= 3u;
+    if (flags & select(LIGHT_CAP, DARK_CAP, is_dark)) == 0u {
+        return NOWHERE;
+    }
+    let triangle = slot - casters[caster].triangle_chunk * CHUNK;
+    let is_turned = (((entry & 1u) != 0u) != ((flags & MIRRORED) != 0u)) != is_dark;
+    let k = corner % 3u;
+    let place = select(k, (3u - k) % 3u, is_turned);
+    let vertex = casters[caster].base_vertex + indices[casters[caster].first_index + 3u * triangle + place];
+    let p = light_corner(caster, vertex);
+    if is_dark {
+        return on_screen(dark_corner(caster, p), 1.0);
+    }
+    return on_screen(vec4f(p, 1.0), 1.0);
+}
+
+@vertex
+fn listed_side(@builtin(vertex_index) vertex: u32) -> Corner {
+    let per_side = select(6u, 3u, PARALLEL);
+    return side_corner(list[vertex / per_side], vertex % per_side);
+}
+
+@vertex
+fn listed_cap(@builtin(vertex_index) vertex: u32) -> Corner {
+    let per_cap = select(3u, 6u, HAS_DARK_CAPS);
+    return cap_corner(list[vertex / per_cap], vertex % per_cap);
+}
+
+// Every edge is drawn, and falls together to nothing where it bounds no shadow: the degenerate quads of PX 3.3.3, except that
+// edges are fetched instead of copied six times. The second instance is for sides that count twice.
+@vertex
+fn any_side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) again: u32) -> Corner {
+    let per_side = select(6u, 3u, PARALLEL);
+    let slot = vertex / per_side;
+    let caster = chunks[slot / CHUNK];
+    let edge = slot - casters[caster].edge_chunk * CHUNK;
+    if edge >= casters[caster].edge_count {
+        return NOWHERE;
+    }
+    let times = multiplicity(caster, edges[casters[caster].first_edge + edge]);
+    if u32(abs(times)) <= again {
+        return NOWHERE;
+    }
+    return side_corner(side_entry(slot, times), vertex % per_side);
+}
+
+@vertex
+fn any_cap(@builtin(vertex_index) vertex: u32) -> Corner {
+    let per_cap = select(3u, 6u, HAS_DARK_CAPS);
+    let slot = vertex / per_cap;
+    let caster = chunks[slot / CHUNK];
+    let triangle = slot - casters[caster].triangle_chunk * CHUNK;
+    if triangle >= casters[caster].triangle_count {
+        return NOWHERE;
+    }
+    let plane = planes[casters[caster].first_triangle + triangle];
+    let f = facing(plane, casters[caster].light);
+    if all(plane.xyz == vec3f(0.0)) || (f > 0 && (casters[caster].flags & AWAY) != 0u) {
+        return NOWHERE;
+    }
+    return cap_corner(cap_entry(slot, f < 0), vertex % per_cap);
+}
