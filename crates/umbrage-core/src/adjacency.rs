@@ -283,7 +283,7 @@ pub(crate) mod tests {
     /// Sixteen quads around, turned over once.
     pub(crate) fn moebius() -> Mesh {
         let rim = |i: u32| {
-            let (i, side) = (i / 2 % 16, if (i / 2 >= 16) == (i % 2 == 0) { 0.3 } else { -0.3 });
+            let (i, side) = (i / 2 % 16, if (i / 2 >= 16) == i.is_multiple_of(2) { 0.3 } else { -0.3 });
             let around = glam::Quat::from_rotation_y(i as f32 / 16.0 * std::f32::consts::TAU);
             let twist = glam::Quat::from_rotation_z(i as f32 / 16.0 * std::f32::consts::PI);
             around * (Vec3::X + twist * Vec3::Y * side)

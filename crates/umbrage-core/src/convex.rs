@@ -139,15 +139,11 @@ impl Hull {
         }
     }
 
-    /// The plane with about this normal that has all points inside.
-    fn supporting(&self, mut normal: DVec3) -> Option<DVec4> {
-        let directions = || self.points[self.finite..self.own].iter().map(|p| p.truncate());
-        // No offset helps against a direction that leads out: the plane is tilted.
-        for direction in directions() {
-            normal -= direction * normal.dot(direction).min(0.0);
-        }
-        let normal = normal.normalize();
-        if directions().any(|d| normal.dot(d) < -4.0 * f64::EPSILON) {
+    /// The plane with this normal that has all points inside; `None` where a direction leads out of it, against which
+    /// no offset helps. That costs little: the planes beside it stay.
+    fn supporting(&self, normal: DVec3) -> Option<DVec4> {
+        let directions = &self.points[self.finite..self.own];
+        if directions.iter().any(|d| normal.dot(d.truncate()) < -4.0 * f64::EPSILON) {
             return None;
         }
         let heights = self.points[..self.finite].iter().map(|p| normal.dot(p.truncate()));

@@ -23,7 +23,7 @@ pub fn shadow_hull(camera: &CameraView, receivers: &Bounds, light_center: DVec4)
     let receivers = view.relative_box(receivers);
     view.clip_corners(&receivers)?;
     let [first, last] = view.depths(&receivers);
-    let (first, last) = (view.near.max(first), view.far.min(last * 0.98));
+    let (first, last) = (view.near.max(first), view.far.min(last));
     if first > last {
         return None;
     }

@@ -162,7 +162,12 @@ impl Shot {
     /// A frame with one technique for each light.
     fn render(&self, gpu: &Gpu, techniques: Vec<Box<dyn Technique>>) -> Result<Picture, Error> {
         let scene = &self.source.scene;
-        let passes = self.lights.iter().zip(techniques).map(|(&light, technique)| LightPass { light, technique });
+        let passes = self.lights.iter().zip(techniques).map(|(&light, mut technique)| {
+            if let Aov::Inside(name) = &self.aov {
+                technique.inspect(Some(name));
+            }
+            LightPass { light, technique }
+        });
         let mut renderer = Renderer::new(gpu, scene, self.size.0, self.size.1, passes.collect())?;
         renderer.frame(&scene.camera)?;
         Ok(match &self.aov {
@@ -171,10 +176,16 @@ impl Shot {
             Aov::Normal => Picture::Normal(renderer.normal()?),
             Aov::Visibility | Aov::Scored => Picture::Share(renderer.visibility(0)?),
             Aov::Inside(name) => {
-                let views = renderer.technique(0).map(|t| t.debug_views()).unwrap_or_default();
-                let names: Vec<&str> = views.iter().map(|v| v.name).collect();
+                let technique = renderer.technique(0);
+                let views = technique.map(|t| t.debug_views()).unwrap_or_default();
+                let mut names: Vec<&str> = views.iter().map(|v| v.name).collect();
+                names.extend(technique.map(|t| t.views()).unwrap_or_default());
                 let view = views.iter().find(|v| v.name == name).ok_or_else(|| unknown_view(name, &names))?;
-                Picture::Inside(renderer.read_debug_view(view)?)
+                if view.texture.format().components() == 4 {
+                    Picture::Color(renderer.read_debug_color(view)?)
+                } else {
+                    Picture::Inside(renderer.read_debug_view(view)?)
+                }
             }
         })
     }

@@ -144,6 +144,19 @@ impl Technique for LightSamples {
         self.inner.light_views()
     }
 
+    /// Those of the last sample.
+    fn counts(&self) -> Vec<(&'static str, u64)> {
+        self.inner.counts()
+    }
+
+    fn views(&self) -> &'static [&'static str] {
+        self.inner.views()
+    }
+
+    fn inspect(&mut self, view: Option<&str>) {
+        self.inner.inspect(view);
+    }
+
     fn debug_views(&self) -> Vec<DebugView<'_>> {
         self.inner.debug_views()
     }

@@ -32,6 +32,20 @@ pub trait Technique: Send {
         &[]
     }
 
+    /// What else the last frame came to, by name: casters culled and why, and the like.
+    fn counts(&self) -> Vec<(&'static str, u64)> {
+        Vec::new()
+    }
+
+    /// Names of pictures of the inside that are only drawn when asked for with [`Technique::inspect`].
+    fn views(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// From the next frame on draws this one of [`Technique::views`], too, and shows it among
+    /// [`Technique::debug_views`]; `None` and other names end that.
+    fn inspect(&mut self, _view: Option<&str>) {}
+
     /// Pictures of what is inside.
     fn debug_views(&self) -> Vec<DebugView<'_>> {
         Vec::new()
@@ -58,7 +72,7 @@ pub struct Stats {
 pub struct DebugView<'a> {
     /// What users ask for, such as `map-0`.
     pub name: &'static str,
-    /// The texture: a depth or a float format.
+    /// The texture: depth, one float channel, or 8-bit colour.
     pub texture: &'a wgpu::Texture,
     /// Which layer of it.
     pub layer: u32,

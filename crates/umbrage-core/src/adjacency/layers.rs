@@ -68,8 +68,9 @@ impl Roots {
 
 /// True where a closed part is the surface of a convex body, the rounding of its vertices aside.
 ///
-/// Seen from the middle it covers every direction once, no neighbour rises above a triangle, and none of some dozens of
-/// vertices all over the part. Without the last a dish of very many triangles would pass, flat at every single edge.
+/// The middle is under every triangle and seen from there they cover every direction once; no neighbour rises above a
+/// triangle, and none of some dozens of vertices all over the part. Without the last a dish of very many triangles
+/// would pass, flat at every single edge.
 fn is_convex<'a>(corners: &[[DVec3; 3]], triangles: &[(u32, u32)], mut edges: impl Iterator<Item = &'a Edge>) -> bool {
     let corners_of = |t: u32| corners[t as usize];
     let all = || triangles.iter().flat_map(|(_, t)| corners_of(*t));
@@ -86,7 +87,7 @@ fn is_convex<'a>(corners: &[[DVec3; 3]], triangles: &[(u32, u32)], mut edges: im
     edges.all(|e| {
         let [a, b] = e.triangles;
         top(a).is_above(&corners_of(b)) && top(b).is_above(&corners_of(a))
-    }) && triangles.iter().all(|(_, t)| top(*t).is_above(&spread))
+    }) && triangles.iter().map(|(_, t)| top(*t)).all(|top| top.is_clear_of(middle) && top.is_above(&spread))
 }
 
 /// Signed solid angle of a triangle from the origin, positive where it shows its back.
@@ -110,10 +111,14 @@ impl Top {
     fn of([a, b, c]: [DVec3; 3], outwards: f64, rounding: f64) -> Self {
         let normal = (b - a).cross(c - a);
         let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-        // The lowest height of the triangle is what holds its plane against tilting. At 1, for a triangle without area
-        // too, nothing is above.
+        // The lowest height of the triangle is what holds its plane against tilting. With 1 or more, as for a triangle
+        // without area, the plane says nothing.
         let tilt = (rounding * longest / normal.length()).min(1.0);
         Self { corner: a, normal: normal.normalize_or_zero() * outwards, rounding, tilt }
+    }
+
+    fn is_clear_of(&self, middle: DVec3) -> bool {
+        self.tilt == 1.0 || self.normal.dot(middle - self.corner) < -self.rounding
     }
 
     fn is_above(&self, points: &[DVec3]) -> bool {
@@ -195,6 +200,18 @@ mod tests {
         let mut cube = primitive::cube();
         cube.append(&primitive::cube());
         assert_eq!(layers(&cube), 12);
+    }
+
+    #[test]
+    fn flat_bodies_are_not_convex() {
+        // Both sides of a sheet, and of another upon it. How much of the sky they cover seen from within is a matter of
+        // rounding; here it comes out as all of it, once.
+        let sheets = Mesh {
+            positions: vec![Vec3::ZERO, Vec3::new(1.0, 0.33333334, -0.6666667), Vec3::new(-0.8233408, 0.25926557, 0.0)],
+            indices: vec![0, 1, 2, 1, 0, 2, 2, 0, 1, 1, 0, 2],
+            ..Mesh::default()
+        };
+        assert_eq!(layers(&sheets), 2);
     }
 
     #[test]

@@ -32,7 +32,6 @@ impl Tally {
     fn check(&self, least: u32) {
         let [lit, hidden, twice, skipped] = [&self.lit, &self.hidden, &self.hidden_twice, &self.skipped].map(Cell::get);
         let all = format!("{lit} lit, {hidden} hidden, {twice} of them twice, {skipped} skipped");
-        println!("{all} {} excluded", self.excluded.get());
         assert!(lit >= least && hidden >= least && twice >= least / 4, "too few points: {all}");
         assert!(skipped * 100 <= lit + hidden, "too many points on edges: {all}");
     }

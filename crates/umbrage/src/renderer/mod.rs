@@ -218,7 +218,15 @@ impl Renderer {
         ))
     }
 
-    /// A picture of the inside of a technique, as it is stored.
+    /// A picture of the inside of a technique that is in colour.
+    ///
+    /// # Errors
+    /// As [`Renderer::color`].
+    pub fn read_debug_color(&self, view: &DebugView<'_>) -> Result<Image<[u8; 4]>, Error> {
+        read::rgba8(&self.gpu, view.texture)
+    }
+
+    /// A picture of the inside of a technique, as it is stored: depths or numbers.
     ///
     /// # Errors
     /// As [`Renderer::color`].

@@ -98,22 +98,29 @@ fn listed_cap(@builtin(vertex_index) vertex: u32) -> Corner {
     return cap_corner(list[vertex / per_cap], vertex % per_cap);
 }
 
+const NO_ENTRY: u32 = 0xffffffffu;
+
+// The side at an edge, where that bounds the shadow more than `before` times.
+fn side_at(slot: u32, before: u32) -> u32 {
+    let caster = chunks[slot / CHUNK];
+    let edge = slot - casters[caster].edge_chunk * CHUNK;
+    if edge >= casters[caster].edge_count {
+        return NO_ENTRY;
+    }
+    let times = multiplicity(caster, edges[casters[caster].first_edge + edge]);
+    return select(NO_ENTRY, side_entry(slot, times), u32(abs(times)) > before);
+}
+
 // Every edge is drawn, and falls together to nothing where it bounds no shadow: the degenerate quads of PX 3.3.3, except that
 // edges are fetched instead of copied six times. The second instance is for sides that count twice.
 @vertex
 fn any_side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) again: u32) -> Corner {
     let per_side = select(6u, 3u, PARALLEL);
-    let slot = vertex / per_side;
-    let caster = chunks[slot / CHUNK];
-    let edge = slot - casters[caster].edge_chunk * CHUNK;
-    if edge >= casters[caster].edge_count {
+    let entry = side_at(vertex / per_side, again);
+    if entry == NO_ENTRY {
         return NOWHERE;
     }
-    let times = multiplicity(caster, edges[casters[caster].first_edge + edge]);
-    if u32(abs(times)) <= again {
-        return NOWHERE;
-    }
-    return side_corner(side_entry(slot, times), vertex % per_side);
+    return side_corner(entry, vertex % per_side);
 }
 
 @vertex

@@ -118,6 +118,11 @@ impl Counter {
         self.targets.as_ref()?.read_counts.as_ref()
     }
 
+    /// The texture of float counts.
+    pub fn counts(&self) -> Option<&wgpu::TextureView> {
+        self.targets.as_ref()?.counts.as_ref()
+    }
+
     fn attachment(&self, stencil: Option<wgpu::LoadOp<u32>>) -> Option<wgpu::RenderPassDepthStencilAttachment<'_>> {
         let targets = self.targets.as_ref()?;
         let counts = stencil.filter(|_| self.key.kind == CounterKind::Stencil);

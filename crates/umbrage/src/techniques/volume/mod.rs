@@ -6,8 +6,10 @@
 mod counter;
 mod options;
 mod pipelines;
+mod plan;
 mod select;
 mod technique;
+mod views;
 
 use crate::depth_maps::Eye;
 use crate::params::{Param, ParamKind};
@@ -30,6 +32,20 @@ const DEPTH_SHADER: Shader = Shader {
     parts: &[FULLSCREEN, RECEIVERS, include_str!("depth.wgsl")],
     layouts: &[Eye::LAYOUT, counter::DepthBounds::LAYOUT],
 };
+
+const VIEWS_SHADER: Shader = Shader {
+    name: "views of volumes",
+    parts: &[EXTRUDE_PARTS[0], EXTRUDE_PARTS[1], EXTRUDE_PARTS[2], include_str!("views.wgsl")],
+    layouts: EXTRUDE_LAYOUTS,
+};
+
+const VIEW_BASE_SHADER: Shader = Shader {
+    name: "views of volumes, base",
+    parts: &[FULLSCREEN, RECEIVERS, include_str!("view_base.wgsl")],
+    layouts: &[Eye::LAYOUT, views::ViewBase::LAYOUT],
+};
+
+const PLAN_SHADER: Shader = Shader { name: "plan of casters", parts: &[include_str!("plan.wgsl")], layouts: &[] };
 
 const PARAMS: &[Param] = &[
     Param {
@@ -110,7 +126,15 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     features: wgpu::Features::empty(),
     hard: true,
     params: PARAMS,
-    shaders: &[FIND_SHADER, COUNT_SHADER, RESOLVE_SHADER, DEPTH_SHADER],
+    shaders: &[
+        FIND_SHADER,
+        COUNT_SHADER,
+        RESOLVE_SHADER,
+        DEPTH_SHADER,
+        VIEWS_SHADER,
+        VIEW_BASE_SHADER,
+        PLAN_SHADER,
+    ],
     readme: include_str!("README.md"),
     make: |gpu, settings| Ok(Box::new(technique::Volume::new(gpu, settings))),
 };

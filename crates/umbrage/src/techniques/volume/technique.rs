@@ -3,11 +3,12 @@
 use super::counter::Counter;
 use super::options::{Count, CounterKind, Options};
 use super::pipelines::{Key, Pipelines, Test};
-use super::select::Selection;
+use super::select::{Fate, Selection};
+use super::views::{self, Views};
 use crate::casters::Edges;
 use crate::params::Settings;
 use crate::silhouettes::{Part, Silhouettes, Style};
-use crate::technique::{Stats, Technique};
+use crate::technique::{DebugView, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
 
 pub(super) struct Volume {
@@ -19,6 +20,8 @@ pub(super) struct Volume {
     kind: CounterKind,
     casting: u32,
     draws: u32,
+    gpu: Gpu,
+    views: Option<Views>,
 }
 
 /// Stencil wraps at this many shadows.
@@ -37,6 +40,8 @@ impl Volume {
             kind: CounterKind::Float,
             casting: 0,
             draws: 0,
+            gpu: gpu.clone(),
+            views: None,
         }
     }
 
@@ -44,6 +49,7 @@ impl Volume {
     fn choose_counter(&self, gpu: &Gpu) -> Result<CounterKind, Error> {
         let has_stencil = gpu.has(wgpu::Features::DEPTH32FLOAT_STENCIL8);
         match self.options.counter {
+            _ if self.views.as_ref().is_some_and(Views::needs_counts) => Ok(CounterKind::Float),
             Some(CounterKind::Stencil) if !has_stencil => Err(Error::Unsupported {
                 technique: super::INFO.id.into(),
                 what: "this adapter with a stencil counter, since it lacks DEPTH32FLOAT_STENCIL8; set counter=float".into(),
@@ -113,10 +119,14 @@ impl Technique for Volume {
         let light = self.selection.choose(gpu, view, &self.options, clamps)?;
         self.casting = view.casters.tree().len() as u32;
         if self.selection.throws.is_empty() {
+            if let Some(views) = &mut self.views {
+                views.prepare(gpu, view, &self.silhouettes, None);
+            }
             return Ok(());
         }
         self.kind = self.choose_counter(gpu)?;
-        let style = Style { weighted: self.kind == CounterKind::Float, quads: self.options.quads };
+        let quads = self.options.quads || self.views.as_ref().is_some_and(Views::needs_quads);
+        let style = Style { weighted: self.kind == CounterKind::Float, quads };
         let clip_from_world = view.camera.clip_from_world();
         self.silhouettes.prepare(gpu, view.casters, &clip_from_world, light, &self.selection.throws, style)?;
         let bounded = self.options.depth_bounds && self.options.finite && light.w != 0.0;
@@ -126,19 +136,26 @@ impl Technique for Volume {
         for (_, key) in self.keys() {
             self.pipelines.prepare(gpu, key);
         }
+        if let Some(views) = &mut self.views {
+            views.prepare(gpu, view, &self.silhouettes, self.counter.counts());
+        }
         Ok(())
     }
 
     fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
         visibility.check(view.receivers)?;
         self.draws = 0;
-        if self.selection.throws.is_empty() {
-            passes.render("visibility", &[visibility.overwrite()], None);
-            return Ok(());
+        let edges = view.casters.made_edges();
+        match edges.filter(|_| !self.selection.throws.is_empty()) {
+            Some(edges) => {
+                self.draws = self.count_volumes(passes, view, edges) + 1;
+                self.resolve(passes, visibility);
+            }
+            None => drop(passes.render("visibility", &[visibility.overwrite()], None)),
         }
-        let Some(edges) = view.casters.made_edges() else { return Ok(()) };
-        self.draws = self.count_volumes(passes, view, edges) + 1;
-        self.resolve(passes, visibility);
+        if let Some(views) = &mut self.views {
+            views.record(&self.gpu, passes, view, &self.silhouettes, edges, &self.selection);
+        }
         Ok(())
     }
 
@@ -152,5 +169,47 @@ impl Technique for Volume {
             casters_culled: self.casting.saturating_sub(drawn),
             bytes: self.counter.bytes() + self.silhouettes.bytes(),
         }
+    }
+    fn counts(&self) -> Vec<(&'static str, u64)> {
+        let s = &self.selection;
+        let fate = |fate| u64::from(s.count(fate));
+        let (edges, triangles) = self.silhouettes.looked_at();
+        let kept = s.throws.len() as u64;
+        let elsewhere: u64 = [Fate::OutOfLight, Fate::ShadowsNothing, Fate::OverBudget].map(fate).iter().sum();
+        let mut counts = vec![
+            ("casters", self.casting.into()),
+            ("from the eye", fate(Fate::FromEye)),
+            ("from infinity", fate(Fate::FromInfinity)),
+            ("out of view", u64::from(self.casting).saturating_sub(kept + elsewhere)),
+            ("out of light", fate(Fate::OutOfLight)),
+            ("shadow nothing", fate(Fate::ShadowsNothing)),
+            ("over budget", fate(Fate::OverBudget)),
+            ("light caps", s.caps[0].into()),
+            ("light caps culled", s.caps_culled[0].into()),
+            ("dark caps", s.caps[1].into()),
+            ("dark caps culled", s.caps_culled[1].into()),
+            ("searched for the eye", s.eye_counted.into()),
+            ("too close to tell", s.eye_undecided.into()),
+            ("edges", edges),
+            ("cap triangles", triangles),
+        ];
+        if let Some([from_eye, from_infinity, caps]) = self.silhouettes.found() {
+            let sides = u64::from(from_eye) + u64::from(from_infinity);
+            counts.extend([("sides", sides), ("caps", caps.into())]);
+        }
+        counts
+    }
+
+    fn views(&self) -> &'static [&'static str] {
+        views::NAMES
+    }
+
+    fn inspect(&mut self, view: Option<&str>) {
+        let name = view.and_then(|v| views::NAMES.iter().find(|name| **name == v));
+        self.views = name.map(|name| Views::new(&self.gpu, name));
+    }
+
+    fn debug_views(&self) -> Vec<DebugView<'_>> {
+        self.views.iter().filter_map(Views::picture).collect()
     }
 }
