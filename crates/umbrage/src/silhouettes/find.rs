@@ -1,6 +1,6 @@
 //! Finding silhouettes by compute.
 
-use super::work::{Buffers, Work, vertices};
+use super::work::{Buffers, Work};
 use super::{FIND_SHADER, Part, Shape};
 use crate::casters::{Edges, STORAGE};
 use crate::fullscreen::{UNIFORM, layout};
@@ -12,12 +12,11 @@ shader_struct! {
     pub(crate) struct FindSilhouettes {
         edge_chunks: u32,
         triangle_chunks: u32,
-        vertices_per_side: u32,
+        vertices_per_side: [u32; 2],
         vertices_per_cap: u32,
         weighted: u32,
         pad_a: u32,
         pad_b: u32,
-        pad_c: u32,
     }
 }
 
@@ -70,13 +69,13 @@ impl Find {
         let uniform = FindSilhouettes {
             edge_chunks: work.edge_chunks,
             triangle_chunks,
-            vertices_per_side: vertices(Part::PassSides, shape),
-            vertices_per_cap: vertices(Part::Caps, shape),
+            vertices_per_side: [Part::PassSides, Part::FailSides].map(|part| shape.vertices(part)),
+            vertices_per_cap: shape.vertices(Part::Caps),
             weighted: shape.weighted.into(),
             ..FindSilhouettes::default()
         };
         passes.upload(&buffers.find_uniform, bytemuck::bytes_of(&uniform));
-        let arguments = Part::ALL.map(|part| [0, 1, work.first(part) * vertices(part, shape), 0]);
+        let arguments = Part::ALL.map(|part| [0, 1, work.first(part) * shape.vertices(part), 0]);
         passes.upload(&buffers.arguments, bytemuck::cast_slice(&arguments));
         let mut pass = passes.compute("silhouettes");
         pass.set_bind_group(0, bind_group, &[]);

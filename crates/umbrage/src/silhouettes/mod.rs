@@ -34,6 +34,7 @@ shader_struct! {
     /// A caster under one light, see `wgsl/edges.wgsl`.
     pub(crate) struct Caster {
         light: [f32; 4],
+        end: [f32; 4],
         first_edge: u32,
         edge_count: u32,
         edge_chunk: u32,
@@ -88,15 +89,17 @@ pub(crate) struct Throw {
     pub z_fail: bool,
     pub light_cap: bool,
     pub dark_cap: bool,
-    /// Where the shadow ends, metres from the light; 0 for nowhere.
+    /// The plane n · p = w where the shadow may end since nothing that is seen lies beyond, in world space; zero for none.
+    pub end: DVec4,
+    /// Where the shadow ends otherwise, metres from the light; 0 for nowhere.
     pub reach: f32,
 }
 
 /// How sides and caps are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Shape {
-    /// Of a light infinitely far away: triangles that meet there, and no dark caps.
-    pub parallel: bool,
+    /// Sides are triangles that meet infinitely far away, those counted from the eye and those counted from infinity.
+    pub parallel: [bool; 2],
     /// Some cap is a dark one.
     pub dark_caps: bool,
     /// Sides that count twice are drawn once, with that weight.
@@ -104,12 +107,27 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    fn vertices_per_side(self) -> u32 {
-        if self.parallel { 3 } else { 6 }
+    fn of(light: DVec4, throws: &[Throw], style: Style) -> Self {
+        let parallel = |z_fail| {
+            let mut own = throws.iter().filter(|t| t.z_fail == z_fail);
+            light.w == 0.0 && !style.quads && own.all(|t| t.end == DVec4::ZERO)
+        };
+        Self {
+            parallel: [false, true].map(parallel),
+            dark_caps: throws.iter().any(|t| t.z_fail && t.dark_cap),
+            weighted: style.weighted,
+        }
     }
 
-    fn vertices_per_cap(self) -> u32 {
-        if self.dark_caps { 6 } else { 3 }
+    /// True where the sides of a part are triangles.
+    pub fn is_parallel(self, part: Part) -> bool {
+        part != Part::Caps && self.parallel[part as usize]
+    }
+
+    /// Corners of one side or cap.
+    fn vertices(self, part: Part) -> u32 {
+        let is_three = if part == Part::Caps { !self.dark_caps } else { self.is_parallel(part) };
+        if is_three { 3 } else { 6 }
     }
 }
 
@@ -118,7 +136,7 @@ impl Shape {
 pub(crate) struct Style {
     /// See [`Shape::weighted`].
     pub weighted: bool,
-    /// Parallel light has quads, too.
+    /// Sides of parallel light are quads in any case.
     pub quads: bool,
 }
 
@@ -156,7 +174,7 @@ impl Silhouettes {
             extrude,
             find: (extrude == Extrude::Compute).then(|| Find::new(gpu)),
             work: Work::default(),
-            shape: Shape { parallel: false, dark_caps: false, weighted: false },
+            shape: Shape::default(),
             extrusion: Extrusion::default(),
             draw_layout: layout(gpu, "silhouettes", wgpu::ShaderStages::VERTEX, &[&storage[..], &[UNIFORM]].concat()),
             buffers: None,
@@ -194,11 +212,7 @@ impl Silhouettes {
     ) -> Result<(), Error> {
         let edges = casters.edges(gpu)?;
         let origin = casters.origin();
-        self.shape = Shape {
-            parallel: light.w == 0.0 && !style.quads,
-            dark_caps: throws.iter().any(|t| t.z_fail && t.dark_cap),
-            weighted: style.weighted,
-        };
+        self.shape = Shape::of(light, throws, style);
         let clip_from_origin = *clip_from_world * DMat4::from_translation(origin);
         self.extrusion = Extrusion {
             clip_from_world: clip_from_origin.as_mat4().to_cols_array_2d(),
@@ -289,7 +303,9 @@ fn caster(casters: &Casters, edges: &Edges, light: DVec4, throw: &Throw) -> Cast
         (throw.light_cap, LIGHT_CAP),
         (throw.dark_cap, DARK_CAP),
     ];
+    let end = throw.end.truncate();
     Caster {
+        end: end.extend(throw.end.w - end.dot(casters.origin())).as_vec4().to_array(),
         light: light_in_mesh(light, &placed.mesh_from_world, mesh.adjacency.center).to_array(),
         first_edge: mesh.first_edge,
         edge_count: mesh.adjacency.edges.len() as u32,

@@ -129,7 +129,7 @@ impl Work {
 
     /// Vertices of what the CPU found.
     pub fn listed(&self, part: Part, shape: Shape) -> Range<u32> {
-        let per = vertices(part, shape);
+        let per = shape.vertices(part);
         let first = self.first(part);
         first * per..(first + self.counts[part as usize]) * per
     }
@@ -141,7 +141,7 @@ impl Work {
             Part::FailSides => self.pass_chunks..self.edge_chunks,
             Part::Caps => self.edge_chunks..self.chunks.len() as u32,
         };
-        let per = CHUNK * vertices(part, shape);
+        let per = CHUNK * shape.vertices(part);
         chunks.start * per..chunks.end * per
     }
 
@@ -167,10 +167,6 @@ impl Work {
     pub fn counts(&self) -> [u32; 3] {
         self.counts
     }
-}
-
-pub(super) fn vertices(part: Part, shape: Shape) -> u32 {
-    if part == Part::Caps { shape.vertices_per_cap() } else { shape.vertices_per_side() }
 }
 
 /// What a frame's casters and lists are uploaded to.

@@ -14,6 +14,8 @@ struct Edge {
 struct Caster {
     // The light in mesh space about the middle of the mesh; w = 0: the direction to it.
     light: vec4f,
+    // The shadow may end where n · p = w, since nothing that is seen lies beyond; n = 0: nowhere.
+    end: vec4f,
     first_edge: u32,
     edge_count: u32,
     // Of its chunks of edges, the first.

@@ -34,9 +34,15 @@ fn light_corner(caster: u32, vertex: u32) -> vec3f {
     return world_from_mesh(casters[caster].instance, vec3f(positions[at], positions[at + 1u], positions[at + 2u]));
 }
 
-// Where the shadow of a corner ends: infinitely far away (w = 0; GG 9.5.3), or at the caster's reach.
+// Where the shadow of a corner ends: at the plane that nothing seen lies beyond, at the caster's reach, or infinitely far
+// away (w = 0; GG 9.5.3).
 fn dark_corner(caster: u32, p: vec3f) -> vec4f {
     let away = p * extrusion.light.w - extrusion.light.xyz;
+    let end = casters[caster].end;
+    let toward_end = dot(end.xyz, away);
+    if toward_end > 0.0 {
+        return vec4f(p + away * max((end.w - dot(end.xyz, p)) / toward_end, 0.0), 1.0);
+    }
     let reach = casters[caster].reach;
     if reach == 0.0 {
         return vec4f(away, 0.0);

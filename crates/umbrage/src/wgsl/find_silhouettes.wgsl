@@ -3,13 +3,13 @@
 struct FindSilhouettes {
     edge_chunks: u32,
     triangle_chunks: u32,
-    vertices_per_side: u32,
+    // Of sides counted by z-pass, and by z-fail.
+    vertices_per_side: vec2u,
     vertices_per_cap: u32,
     // A side that counts twice is listed once where counters take weights, else twice.
     weighted: u32,
     pad_a: u32,
     pad_b: u32,
-    pad_c: u32,
 }
 
 struct DrawArguments {
@@ -55,7 +55,7 @@ fn find_sides(
     }
     let draw = u32((casters[caster].flags & Z_FAIL) != 0u);
     let entries = select(u32(abs(times)), 1u, find.weighted != 0u);
-    append(draw, find.vertices_per_side, side_entry(chunk * CHUNK + place, times), entries);
+    append(draw, find.vertices_per_side[draw], side_entry(chunk * CHUNK + place, times), entries);
 }
 
 @compute @workgroup_size(64)

@@ -77,9 +77,10 @@ const PARAMS: &[Param] = &[
     },
     Param {
         name: "reach",
-        help: "Where shadows end: nowhere, or where the light does (the picture is the same, visibility beyond is not).",
+        help: "Where shadows end: behind everything that is seen, nowhere, or where the light does (the picture is the same, \
+               visibility beyond is not).",
         unit: "",
-        kind: ParamKind::Choice { values: &["infinite", "finite"] },
+        kind: ParamKind::Choice { values: &["scene", "infinite", "finite"] },
     },
     Param {
         name: "cull",

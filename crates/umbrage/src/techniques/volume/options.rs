@@ -18,6 +18,17 @@ pub(super) enum Count {
     Xor,
 }
 
+/// Where shadows end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Reach {
+    /// Behind everything that is seen.
+    Scene,
+    /// Nowhere.
+    Infinite,
+    /// Where the light does.
+    Finite,
+}
+
 /// What counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum CounterKind {
@@ -41,7 +52,7 @@ pub(super) struct Options {
     /// `None`: what is safe.
     pub counter: Option<CounterKind>,
     pub two_pass: bool,
-    pub finite: bool,
+    pub reach: Reach,
     pub cull: Cull,
     pub depth_bounds: bool,
     pub quads: bool,
@@ -51,6 +62,11 @@ pub(super) struct Options {
 }
 
 impl Options {
+    /// Shadows end where the light does.
+    pub fn is_finite(&self) -> bool {
+        self.reach == Reach::Finite
+    }
+
     pub fn of(settings: &Settings) -> Self {
         let two_pass = settings.choice("stencil") == "two-pass";
         let cull = settings.choice("cull");
@@ -74,7 +90,11 @@ impl Options {
                 _ => Some(CounterKind::Stencil),
             },
             two_pass,
-            finite: settings.choice("reach") == "finite",
+            reach: match settings.choice("reach") {
+                "infinite" => Reach::Infinite,
+                "finite" => Reach::Finite,
+                _ => Reach::Scene,
+            },
             cull: Cull {
                 light: culls("light"),
                 view: culls("view"),

@@ -3,7 +3,7 @@
 use super::{COUNT_SHADER, RESOLVE_SHADER, options::CounterKind};
 use crate::casters::Edges;
 use crate::fullscreen::{FLOATS, additive, layout, texture};
-use crate::silhouettes::Shape;
+use crate::silhouettes::{Part, Shape};
 use crate::{gpu::Gpu, visibility::VisibilityTarget};
 use wgpu::{CompareFunction, StencilFaceState, StencilOperation};
 
@@ -24,7 +24,7 @@ pub(super) struct Key {
     pub target: TargetKey,
     pub shape: Shape,
     pub test: Test,
-    pub caps: bool,
+    pub part: Part,
     /// Of two passes, the sides left out.
     pub cull: Option<wgpu::Face>,
 }
@@ -98,7 +98,7 @@ impl Pipelines {
     fn count(&self, gpu: &Gpu, key: Key) -> wgpu::RenderPipeline {
         let on = |switch: bool| if switch { 1.0 } else { 0.0 };
         let vertex_constants = [
-            ("PARALLEL", on(key.shape.parallel)),
+            ("PARALLEL", on(key.shape.is_parallel(key.part))),
             ("HAS_DARK_CAPS", on(key.shape.dark_caps)),
             ("WEIGHTED", on(key.shape.weighted)),
         ];
@@ -119,7 +119,7 @@ impl Pipelines {
             layout: Some(&self.count_layout),
             vertex: wgpu::VertexState {
                 module: &self.count_module,
-                entry_point: Some(self.entries[usize::from(key.caps)]),
+                entry_point: Some(self.entries[usize::from(key.part == Part::Caps)]),
                 compilation_options: wgpu::PipelineCompilationOptions {
                     constants: &vertex_constants,
                     ..Default::default()
@@ -193,7 +193,7 @@ fn depth_stencil(key: Key) -> wgpu::DepthStencilState {
         depth_write_enabled: Some(false),
         depth_compare: Some(depth_compare),
         stencil,
-        bias: if key.caps { cap_bias(reversed) } else { Default::default() },
+        bias: if key.part == Part::Caps { cap_bias(reversed) } else { Default::default() },
     }
 }
 

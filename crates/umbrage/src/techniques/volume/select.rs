@@ -1,6 +1,6 @@
 //! Which casters throw shadows that matter, and from where each is counted.
 
-use super::options::{Count, Options};
+use super::options::{Count, Options, Reach};
 use crate::casters::{self, Casters, Edges, MeshEdges, Placed, Sight};
 use crate::silhouettes::Throw;
 use crate::{error::Error, gpu::Gpu, view::View};
@@ -62,6 +62,8 @@ struct Situation<'a> {
     pyramid: Option<Convex>,
     /// Shadows end where the light does.
     range: Option<f64>,
+    /// A box around everything that rays from the eye can end at, and the eye.
+    seen: Bounds,
 }
 
 impl Selection {
@@ -84,13 +86,14 @@ impl Selection {
             frustum: Frustum::of(&camera.clip_from_world()),
             around_eye: around_eye(view).grown(rounding),
             pyramid: (!clamps).then(|| shadow_hull::occlusion_pyramid(camera, light)),
-            range: view.light.range.filter(|_| options.finite && light.w != 0.0),
+            range: view.light.range.filter(|_| options.is_finite() && light.w != 0.0),
+            seen: casters.receivers_bounds().union(around_eye(view)).grown(4.0 * rounding),
         };
-        if options.finite && options.cull.light && !shadow_hull::may_light_view(view.light, camera) {
+        if options.is_finite() && options.cull.light && !shadow_hull::may_light_view(view.light, camera) {
             self.fates.extend(casting(casters).map(|place| (place, Fate::OutOfLight)));
             return Ok(light);
         }
-        if options.finite && options.cull.scissor
+        if options.is_finite() && options.cull.scissor
             && let Some(reach) = shadow_hull::reach(view.light)
         {
             self.scissor = Some(shadow_hull::screen_rect(camera, &reach, view.receivers.size).unwrap_or_default());
@@ -117,7 +120,7 @@ impl Selection {
         let casters = s.view.casters;
         let receivers = casters.receivers_bounds();
         if s.options.cull.view {
-            let reach = if s.options.finite { shadow_hull::reach(s.view.light) } else { None };
+            let reach = if s.options.is_finite() { shadow_hull::reach(s.view.light) } else { None };
             let lit = reach.map_or(receivers, |reach| common(&receivers, &reach));
             if let Some(hull) = shadow_hull(&s.view.camera, &lit, s.light) {
                 casters.tree().query(&hull, &mut self.found);
@@ -132,7 +135,7 @@ impl Selection {
             let placed = &casters.placed()[place as usize];
             let fate = if s.options.cull.view && placed.shadows_nothing(&shadowed) {
                 Fate::ShadowsNothing
-            } else if s.options.finite && s.options.cull.light && !shadow_hull::may_be_reached(s.view.light, &placed.bounds) {
+            } else if s.options.is_finite() && s.options.cull.light && !shadow_hull::may_be_reached(s.view.light, &placed.bounds) {
                 Fate::OutOfLight
             } else {
                 return true;
@@ -193,7 +196,10 @@ impl Selection {
         };
         let (light_cap, dark_cap) = if z_fail { self.caps(s, placed, &bounds) } else { (false, false) };
         let reach = s.range.map_or(0.0, |range| finite_reach(range, s.light.truncate(), placed, mesh));
-        Throw { place, rule, z_fail, light_cap, dark_cap, reach: reach as f32 }
+        // What is counted from infinity needs its dark cap, and that is best far away.
+        let ends = !z_fail && s.options.reach != Reach::Infinite;
+        let end = if ends { s.end_of(&placed.bounds) } else { DVec4::ZERO };
+        Throw { place, rule, z_fail, light_cap, dark_cap, end, reach: reach as f32 }
     }
 
     /// Adds the caster's shadows that the eye is in; false where that can't be told for sure.
@@ -257,6 +263,29 @@ impl Situation<'_> {
             Some(pyramid) => pyramid.may_touch(bounds),
             None => shadow_hull::segment_touches(self.view.camera.eye, self.light, bounds, self.rounding),
         }
+    }
+
+    /// The side of the box around all that is seen where the caster's shadow leaves it soonest, as n · p = w. Rays from
+    /// the eye stay inside, so what lies beyond counts for nothing and need not be drawn. Zero where the shadow leaves the
+    /// box through several sides.
+    fn end_of(&self, bounds: &Bounds) -> DVec4 {
+        let mut best = (f64::INFINITY, DVec4::ZERO);
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            for normal in [axis, -axis] {
+                // Of the box: the corner that is least far along the normal, and how far the light is from there.
+                let least = normal.dot(if normal == axis { bounds.min } else { bounds.max });
+                let side = normal.dot(if normal == axis { self.seen.max } else { self.seen.min });
+                let away = least * self.light.w - normal.dot(self.light.truncate());
+                let middle = bounds.center();
+                let direction = middle * self.light.w - self.light.truncate();
+                let length = (side - normal.dot(middle)) / normal.dot(direction) * direction.length();
+                // Not so steep that rounding moves where a ray meets the side.
+                if away > 1e-3 * direction.length() && length < best.0 {
+                    best = (length, normal.extend(side));
+                }
+            }
+        }
+        best.1
     }
 }
 

@@ -61,7 +61,7 @@ impl Volume {
     }
 
     /// What is drawn, and how.
-    fn keys(&self) -> Vec<(Part, Key)> {
+    fn keys(&self) -> Vec<Key> {
         let silhouettes = &self.silhouettes;
         let from_eye = if self.options.count == Count::Xor { Test::Parity } else { Test::Pass };
         let faces: &[Option<wgpu::Face>] = if self.options.two_pass && self.kind == CounterKind::Stencil {
@@ -73,8 +73,7 @@ impl Volume {
         for &cull in faces {
             for part in Part::ALL.into_iter().filter(|part| !silhouettes.is_empty(*part)) {
                 let test = if part == Part::PassSides { from_eye } else { Test::Fail };
-                let (target, shape, caps) = (self.counter.key, silhouettes.shape(), part == Part::Caps);
-                keys.push((part, Key { target, shape, test, caps, cull }));
+                keys.push(Key { target: self.counter.key, shape: silhouettes.shape(), test, part, cull });
             }
         }
         keys
@@ -88,10 +87,10 @@ impl Volume {
         if let Some([x, y, width, height]) = self.selection.scissor {
             pass.set_scissor_rect(x, y, width, height);
         }
-        for (part, key) in &keys {
+        for key in &keys {
             if let Some(pipeline) = self.pipelines.counting(*key) {
                 pass.set_pipeline(pipeline);
-                silhouettes.draw(&mut pass, edges, *part);
+                silhouettes.draw(&mut pass, edges, key.part);
             }
         }
         keys.len() as u32
@@ -129,11 +128,11 @@ impl Technique for Volume {
         let style = Style { weighted: self.kind == CounterKind::Float, quads };
         let clip_from_world = view.camera.clip_from_world();
         self.silhouettes.prepare(gpu, view.casters, &clip_from_world, light, &self.selection.throws, style)?;
-        let bounded = self.options.depth_bounds && self.options.finite && light.w != 0.0;
+        let bounded = self.options.depth_bounds && self.options.is_finite() && light.w != 0.0;
         let range = view.light.range.filter(|_| bounded);
         self.counter.prepare(gpu, view, self.kind, range, &self.pipelines.read_counts);
         self.pipelines.prepare_resolve(gpu, self.counter.key, self.options.count == Count::Xor);
-        for (_, key) in self.keys() {
+        for key in self.keys() {
             self.pipelines.prepare(gpu, key);
         }
         if let Some(views) = &mut self.views {

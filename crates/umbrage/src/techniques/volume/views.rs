@@ -7,7 +7,7 @@ use crate::casters::Edges;
 use crate::depth_maps::Eye;
 use crate::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout, target_texture};
 use crate::shader::shader_struct;
-use crate::silhouettes::{Part, Silhouettes};
+use crate::silhouettes::{Part, Shape, Silhouettes};
 use crate::technique::DebugView;
 use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View};
 
@@ -55,8 +55,8 @@ struct Targets {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Draw {
     Base(&'static str),
-    /// Volumes: the fragment shader, caps or sides, with triangles of parallel light.
-    Volumes { entry: &'static str, caps: bool, parallel: bool, dark_caps: bool },
+    /// Volumes: the fragment shader, what is drawn, and how.
+    Volumes { entry: &'static str, part: Part, shape: Shape },
 }
 
 impl Views {
@@ -164,8 +164,9 @@ impl Views {
         entry: &'static str,
     ) {
         let Some(edges) = edges else { return };
-        for part in Part::ALL.into_iter().filter(|part| !silhouettes.is_empty(*part)) {
-            if let Some(pipeline) = self.find(volumes_of(silhouettes, entry, part == Part::Caps)) {
+        let is_drawn = |part: &Part| !silhouettes.is_empty(*part) && !(entry == "line" && *part == Part::Caps);
+        for part in Part::ALL.into_iter().filter(is_drawn) {
+            if let Some(pipeline) = self.find(volumes_of(silhouettes, entry, part)) {
                 pass.set_pipeline(pipeline);
                 silhouettes.draw(pass, edges, part);
             }
@@ -177,10 +178,10 @@ impl Views {
     }
 
     fn draws(&self, silhouettes: &Silhouettes) -> Vec<Draw> {
-        let volumes = |entry| [false, true].map(|caps| volumes_of(silhouettes, entry, caps));
+        let volumes = |entry| Part::ALL.map(|part| volumes_of(silhouettes, entry, part));
         match self.name {
             "volumes" => [&[Draw::Base("scene")][..], &volumes("tint")].concat(),
-            "silhouettes" => vec![Draw::Base("scene"), volumes_of(silhouettes, "line", false)],
+            "silhouettes" => [&[Draw::Base("scene")][..], &volumes("line")].concat(),
             "overdraw" => [&[Draw::Base("heated")][..], &volumes("one")].concat(),
             "count" => vec![Draw::Base("scene"), Draw::Base("numbered")],
             _ => Vec::new(),
@@ -206,21 +207,20 @@ impl Views {
                 constants: &[],
             }
             .pipeline(gpu),
-            Draw::Volumes { entry, caps, parallel, dark_caps } => {
+            Draw::Volumes { entry, part, shape } => {
                 let on = |switch: bool| if switch { 1.0 } else { 0.0 };
-                let constants = [("PARALLEL", on(parallel)), ("HAS_DARK_CAPS", on(dark_caps))];
+                let constants = [("PARALLEL", on(shape.is_parallel(part))), ("HAS_DARK_CAPS", on(shape.dark_caps))];
                 let [side, cap] = silhouettes.entries();
                 let edge = if side == "any_side" { "any_edge" } else { "listed_edge" };
-                let vertex = if entry == "line" { edge } else { [side, cap][usize::from(caps)] };
+                let vertex = if entry == "line" { edge } else { [side, cap][usize::from(part == Part::Caps)] };
                 volume_pipeline(gpu, silhouettes, vertex, entry, &constants)
             }
         }
     }
 }
 
-fn volumes_of(silhouettes: &Silhouettes, entry: &'static str, caps: bool) -> Draw {
-    let shape = silhouettes.shape();
-    Draw::Volumes { entry, caps, parallel: shape.parallel, dark_caps: shape.dark_caps }
+fn volumes_of(silhouettes: &Silhouettes, entry: &'static str, part: Part) -> Draw {
+    Draw::Volumes { entry, part, shape: silhouettes.shape() }
 }
 
 fn volume_pipeline(
