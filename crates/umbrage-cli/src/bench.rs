@@ -7,7 +7,7 @@ use crate::{
 use anyhow::Result;
 use clap::Args;
 use std::io::{Write, stdout};
-use umbrage_report::Bench as Plan;
+use umbrage_report::{Bench as Plan, Moving};
 
 /// Measures techniques: GPU time of each pass, frame, draws, triangles, memory, against the floor of the same run
 #[derive(Args)]
@@ -16,6 +16,7 @@ Examples:
   umbrage bench atrium --techniques all
   umbrage bench city primitives --techniques shadow-map:size=512,pcf --json > bench.json
   umbrage bench bunny.scene.toml --light 0 --csv > bench.csv
+  umbrage bench atrium --techniques volume,volume:extrude=cpu --moving lights --lights-together
 
 Techniques take turns frame by frame. `floor` is one full-screen pass that reads depth and writes visibility; \
 `bare-minimum` is a depth-only pass into a map of the same size and a full-screen pass with one look-up.")]
@@ -25,6 +26,12 @@ pub struct Bench {
     /// Frames of each technique
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: u32,
+    /// What moves a little every frame: none, lights, casters, camera or all
+    #[arg(long, value_name = "WHAT", default_value = "none")]
+    moving: Moving,
+    /// All lights in the same frame, each with a technique of its own, instead of one light at a time
+    #[arg(long)]
+    lights_together: bool,
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = args::size)]
     size: Size,
@@ -49,6 +56,8 @@ impl Bench {
             choices,
             size: (self.size.width, self.size.height),
             frames: self.frames,
+            moving: self.moving,
+            together: self.lights_together,
             command: args::command_line(),
         };
         let report = plan.run(&gpu, &Bars::default())?;

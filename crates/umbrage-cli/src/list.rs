@@ -27,6 +27,7 @@ struct Entry {
     source: &'static str,
     lights: Vec<&'static str>,
     params: &'static [Param],
+    views: &'static [&'static str],
 }
 
 impl List {
@@ -48,6 +49,7 @@ fn entries() -> Vec<Entry> {
         source: "PX 2.1.2; ZA 5.4",
         lights: kinds(umbrage_core::LightKinds::ALL),
         params: RAY_TRACED_PARAMS,
+        views: &[],
     };
     let registered = umbrage::techniques().iter().map(|t| Entry {
         id: t.id,
@@ -55,6 +57,7 @@ fn entries() -> Vec<Entry> {
         source: t.source,
         lights: kinds(t.lights),
         params: t.params,
+        views: t.views,
     });
     std::iter::once(ray_traced).chain(registered).collect()
 }
@@ -66,7 +69,7 @@ fn as_json(entries: &[Entry], adapters: &[AdapterSummary]) -> String {
     };
     let technique = |e: &Entry| {
         json!({ "id": e.id, "summary": e.summary, "source": e.source, "lights": e.lights,
-                "params": e.params.iter().map(param).collect::<Vec<Value>>() })
+                "params": e.params.iter().map(param).collect::<Vec<Value>>(), "views": e.views })
     };
     let scene = |s: &umbrage_core::scenes::SceneEntry| json!({ "id": s.id, "title": s.title, "about": s.about });
     let adapter =
@@ -88,6 +91,9 @@ fn as_text(entries: &[Entry], adapters: &[AdapterSummary]) -> String {
             let unit = if p.unit.is_empty() { String::new() } else { format!(" {}", p.unit) };
             let (default, range) = (p.kind.default(), p.kind.range());
             text += &format!("  {:16}   {}={default}{unit}  ({range})  {}\n", "", p.name, p.help);
+        }
+        if !e.views.is_empty() {
+            text += &format!("  {:16} views (render --aov NAME): {}\n", "", e.views.join(", "));
         }
     }
     text += "\nBuilt-in scenes (NAME, or NAME:DETAIL where 1 is normal)\n";

@@ -6,8 +6,9 @@ use crate::{
     error::Error,
     made::Made,
     measure::Frames,
+    motion::{Motion, Moving},
     progress::Progress,
-    record::{SCHEMA, Status},
+    record::{SCHEMA, Status, in_order},
     round::maybe_six,
     source::Source,
     spread::Spread,
@@ -15,6 +16,7 @@ use crate::{
 use serde::Serialize;
 use std::collections::BTreeMap;
 use umbrage::{Gpu, LightPass, Renderer, Technique, baseline};
+use umbrage_core::{Camera, LightKind};
 
 /// What to measure, and how.
 #[derive(Clone, Debug)]
@@ -27,6 +29,10 @@ pub struct Bench {
     pub size: (u32, u32),
     /// Frames of each technique.
     pub frames: u32,
+    /// What moves from frame to frame.
+    pub moving: Moving,
+    /// All lights of a scene in the same frame, each with a technique of its own, where it is otherwise one light at a time.
+    pub together: bool,
     /// The command line, for the record.
     pub command: Vec<String>,
 }
@@ -44,6 +50,8 @@ pub struct BenchReport {
     pub height: u32,
     /// Frames of each technique, after those of warm-up.
     pub frames: u32,
+    /// What moved from frame to frame.
+    pub moving: Moving,
     /// One for each scene, as given.
     pub scenes: Vec<BenchScene>,
 }
@@ -59,17 +67,19 @@ pub struct BenchScene {
     pub triangles: usize,
     /// Placed meshes.
     pub instances: usize,
-    /// One for each light of the scene.
+    /// One for each light of the scene, or one for all of them together.
     pub lights: Vec<BenchLight>,
 }
 
-/// A light that was measured.
+/// A light that was measured, or several in the same frame: then all numbers are of all of them together.
 #[derive(Clone, Debug, Serialize)]
 pub struct BenchLight {
-    /// Its number in the scene, from 0.
-    pub light: usize,
-    /// Its kind.
+    /// Its number in the scene, from 0; null for several together.
+    pub light: Option<usize>,
+    /// Its kind; `all` for several together.
     pub kind: &'static str,
+    /// The numbers of the lights that were measured together; null for one alone.
+    pub together: Option<Vec<usize>>,
     /// Baselines first, then the techniques asked for.
     pub results: Vec<BenchResult>,
 }
@@ -114,6 +124,9 @@ pub struct BenchCost {
     pub triangles: u64,
     /// GPU memory it holds, bytes.
     pub bytes: u64,
+    /// What else its last frame came to, by name, in the technique's own order.
+    #[serde(serialize_with = "in_order")]
+    pub counts: Vec<(&'static str, u64)>,
 }
 
 /// GPU time of a pass.
@@ -147,7 +160,9 @@ impl Bench {
         let mut scenes = Vec::new();
         for (source, lights) in &self.scenes {
             let scene = &source.scene;
-            let lights = lights.iter().map(|&light| self.light(gpu, source, light, progress)).collect();
+            let motion = Motion::new(self.moving, scene);
+            let groups: Vec<&[usize]> = if self.together { vec![lights] } else { lights.chunks(1).collect() };
+            let lights = groups.into_iter().map(|lights| self.lights(gpu, source, &motion, lights, progress)).collect();
             scenes.push(BenchScene {
                 name: scene.name.clone(),
                 source: source.asked.clone(),
@@ -158,46 +173,64 @@ impl Bench {
         }
         let made = Made::now(self.command.clone(), gpu.adapter());
         let (width, height) = self.size;
-        Ok(BenchReport { schema: SCHEMA, made, width, height, frames: self.frames, scenes })
+        Ok(BenchReport { schema: SCHEMA, made, width, height, frames: self.frames, moving: self.moving, scenes })
     }
 
-    fn light(&self, gpu: &Gpu, source: &Source, light: usize, progress: &dyn Progress) -> BenchLight {
-        let kind = source.scene.lights[light].shape.kind();
-        progress.begin(&format!("{}, light {light} ({})", source.scene.name, kind.name()), self.frames.into());
-        let mut runners = self.runners(gpu, source, light);
+    /// Measures `lights` in the same frame.
+    fn lights(
+        &self,
+        gpu: &Gpu,
+        source: &Source,
+        motion: &Motion<'_>,
+        lights: &[usize],
+        progress: &dyn Progress,
+    ) -> BenchLight {
+        let (light, kind, together) = match lights {
+            [light] if !self.together => (Some(*light), source.scene.lights[*light].shape.kind().name(), None),
+            _ => (None, "all", Some(lights.to_vec())),
+        };
+        let mut record = BenchLight { light, kind, together, results: Vec::new() };
+        progress.begin(&format!("{}, {}", source.scene.name, record.title()), self.frames.into());
+        let mut runners = self.runners(gpu, source, lights);
         for round in 0..WARM_UP + self.frames {
+            let camera = motion.camera(round);
             for runner in &mut runners {
-                runner.frame(source, round >= WARM_UP);
+                if let Ok(renderer) = &mut runner.renderer {
+                    motion.apply(gpu, renderer, lights, round);
+                }
+                runner.frame(&camera, round >= WARM_UP);
             }
             progress.at(round.saturating_sub(WARM_UP).into());
         }
         progress.end();
         let costs: Vec<_> = runners.iter().map(|r| (r.baseline, r.cost())).collect();
-        let results = runners.iter().zip(&costs).map(|(runner, (_, cost))| runner.result(cost.clone(), &costs));
-        BenchLight { light, kind: kind.name(), results: results.collect() }
+        record.results = runners.iter().zip(&costs).map(|(r, (_, cost))| r.result(cost.clone(), &costs)).collect();
+        record
     }
 
     /// The baselines and all techniques, each with a renderer of its own.
-    fn runners<'a>(&'a self, gpu: &Gpu, source: &Source, light: usize) -> Vec<Runner<'a>> {
-        let make = |baseline, choice, technique: Result<Box<dyn Technique>, Error>| {
-            let renderer = technique.and_then(|technique| {
-                let pass = LightPass { light, technique };
-                Ok(Renderer::new(gpu, &source.scene, self.size.0, self.size.1, vec![pass])?)
-            });
-            Runner { baseline, choice, renderer, frames: Frames::default() }
+    fn runners<'a>(&'a self, gpu: &Gpu, source: &Source, lights: &[usize]) -> Vec<Runner<'a>> {
+        let make = |baseline, choice, technique: &dyn Fn(LightKind) -> Result<Box<dyn Technique>, Error>| {
+            let pass = |&light: &usize| {
+                let technique = technique(source.scene.lights[light].shape.kind())?;
+                Ok(LightPass { light, technique })
+            };
+            let passes: Result<Vec<_>, Error> = lights.iter().map(pass).collect();
+            let renderer =
+                passes.and_then(|passes| Ok(Renderer::new(gpu, &source.scene, self.size.0, self.size.1, passes)?));
+            Runner { baseline, choice, renderer, lights: lights.len(), frames: Frames::default() }
         };
         let mut sizes: Vec<u32> = self.choices.iter().map(map_size).collect();
         sizes.sort_unstable();
         sizes.dedup();
-        let kind = source.scene.lights[light].shape.kind();
-        let floor = make(Some(Baseline::Floor), None, Ok(baseline::floor(gpu)));
-        let bare = sizes.into_iter().map(|size| {
-            make(Some(Baseline::BareMinimum(size)), None, baseline::bare_minimum(gpu, size).map_err(Error::from))
-        });
+        let floor = make(Some(Baseline::Floor), None, &|_| Ok(baseline::floor(gpu)));
+        let bare = sizes
+            .into_iter()
+            .map(|size| make(Some(Baseline::BareMinimum(size)), None, &|_| Ok(baseline::bare_minimum(gpu, size)?)));
         let techniques = self
             .choices
             .iter()
-            .map(|choice| make(None, Some(choice), choice.supports(kind).and_then(|()| choice.make(gpu))));
+            .map(|choice| make(None, Some(choice), &|kind| choice.supports(kind).and_then(|()| choice.make(gpu))));
         std::iter::once(floor).chain(bare).chain(techniques).collect()
     }
 }
@@ -216,30 +249,34 @@ struct Runner<'a> {
     baseline: Option<Baseline>,
     choice: Option<&'a Choice>,
     renderer: Result<Renderer, Error>,
+    /// How many there are.
+    lights: usize,
     frames: Frames,
 }
 
 impl Runner<'_> {
-    fn frame(&mut self, source: &Source, counts: bool) {
+    fn frame(&mut self, camera: &Camera, counts: bool) {
         let Ok(renderer) = &mut self.renderer else { return };
         let mut unused = Frames::default();
         let frames = if counts { &mut self.frames } else { &mut unused };
-        if let Err(error) = frames.add(renderer, &source.scene.camera) {
+        if let Err(error) = frames.add(renderer, camera) {
             self.renderer = Err(error.into());
         }
     }
 
     fn cost(&self) -> Option<BenchCost> {
-        let stats = self.renderer.as_ref().ok()?.stats(0);
+        let renderer = self.renderer.as_ref().ok()?;
+        let stats: Vec<_> = (0..self.lights).map(|pass| renderer.stats(pass)).collect();
         let passes = self.frames.passes().into_iter();
         Some(BenchCost {
             passes: passes.map(|(owner, pass, time_ms)| BenchPass { owner, pass, time_ms }).collect(),
             gpu_ms: self.frames.technique(),
             prepare_ms: self.frames.prepare(),
             frame_ms: self.frames.frame(),
-            draws: stats.draws,
-            triangles: stats.triangles,
-            bytes: stats.bytes,
+            draws: stats.iter().map(|s| s.draws).sum(),
+            triangles: stats.iter().map(|s| s.triangles).sum(),
+            bytes: stats.iter().map(|s| s.bytes).sum(),
+            counts: added((0..self.lights).flat_map(|pass| renderer.counts(pass))),
         })
     }
 
@@ -276,11 +313,31 @@ impl Runner<'_> {
     }
 }
 
+impl BenchLight {
+    /// In words.
+    pub(crate) fn title(&self) -> String {
+        let numbers = self.together.iter().flatten().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        self.light.map_or(format!("lights {numbers} together"), |light| format!("light {light} ({})", self.kind))
+    }
+}
+
 impl BenchCost {
     /// All that the technique adds to a frame: preparing it and its passes, milliseconds.
     pub fn added_ms(&self) -> Option<f64> {
         self.gpu_ms.map(|gpu| gpu.median + self.prepare_ms.median)
     }
+}
+
+/// Counts of several lights, added up by name.
+fn added(counts: impl Iterator<Item = (&'static str, u64)>) -> Vec<(&'static str, u64)> {
+    let mut sums: Vec<(&'static str, u64)> = Vec::new();
+    for (name, count) in counts {
+        match sums.iter_mut().find(|(other, _)| *other == name) {
+            Some((_, sum)) => *sum += count,
+            None => sums.push((name, count)),
+        }
+    }
+    sums
 }
 
 /// The size of the technique's map, where it has a parameter for it.

@@ -3,6 +3,7 @@
 use crate::{
     bench::{BenchPass, BenchReport, BenchResult},
     measure::is_of_technique,
+    motion::Moving,
     record::Status,
     round::rounded,
     spread::Spread,
@@ -11,7 +12,8 @@ use crate::{
 use comfy_table::{Cell, Table};
 
 const CSV_HEAD: &str = "scene,light,kind,technique,settings,status,reason,frame_ms,frame_ms_min,frame_ms_max,prepare_ms,\
-     prepare_ms_min,prepare_ms_max,gpu_ms,gpu_ms_min,gpu_ms_max,passes,draws,triangles,bytes,vs_floor,vs_bare_minimum";
+     prepare_ms_min,prepare_ms_max,gpu_ms,gpu_ms_min,gpu_ms_max,passes,draws,triangles,bytes,vs_floor,vs_bare_minimum,\
+     counts";
 
 impl BenchReport {
     /// Indented JSON.
@@ -25,7 +27,8 @@ impl BenchReport {
         for scene in &self.scenes {
             for light in &scene.lights {
                 for result in &light.results {
-                    let place = [scene.source.clone(), light.light.to_string(), light.kind.to_string()];
+                    let number = light.light.map_or(String::new(), |number| number.to_string());
+                    let place = [scene.source.clone(), number, light.kind.to_string()];
                     let fields: Vec<String> = place.into_iter().chain(csv_fields(result)).map(|f| quoted(&f)).collect();
                     text += &fields.join(",");
                     text.push('\n');
@@ -38,11 +41,13 @@ impl BenchReport {
     /// A table for each light of each scene.
     pub fn tables(&self) -> String {
         let mut text = String::new();
+        let moving = if self.moving == Moving::None { "nothing" } else { self.moving.name() };
         for scene in &self.scenes {
             for light in &scene.lights {
+                let (title, size) = (light.title(), format!("{}×{}", self.width, self.height));
                 text += &format!(
-                    "\n{}, light {} ({}), {}×{}, {} triangles; medians of {} frames\n",
-                    scene.name, light.light, light.kind, self.width, self.height, scene.triangles, self.frames
+                    "\n{}, {title}, {size}, {} triangles; medians of {} frames; moving: {moving}\n",
+                    scene.name, scene.triangles, self.frames
                 );
                 text += &table(&light.results).to_string();
                 text += "\n";
@@ -80,6 +85,8 @@ fn csv_fields(result: &BenchResult) -> Vec<String> {
         }),
     );
     fields.extend([result.vs_floor, result.vs_bare_minimum].map(|v| v.map(number).unwrap_or_default()));
+    let counts = cost.iter().flat_map(|c| &c.counts).map(|(name, count)| format!("{name}={count}"));
+    fields.push(counts.collect::<Vec<_>>().join(";"));
     fields
 }
 
@@ -154,6 +161,7 @@ mod tests {
             draws: 3,
             triangles: 500,
             bytes: 1 << 20,
+            counts: vec![("edges", 7), ("caps", 2)],
         };
         let result = |technique: &str, cost: Option<BenchCost>, reason: Option<&str>| BenchResult {
             technique: technique.into(),
@@ -167,10 +175,10 @@ mod tests {
         };
         let made: Made = fixture().made;
         let results = vec![result("shadow-map", Some(cost), None), result("pcf", None, Some("lost, \"gone\""))];
-        let light = BenchLight { light: 0, kind: "point", results };
+        let light = BenchLight { light: Some(0), kind: "point", together: None, results };
         let scene =
             BenchScene { name: "a".into(), source: "a,b.obj".into(), triangles: 9, instances: 1, lights: vec![light] };
-        BenchReport { schema: SCHEMA, made, width: 8, height: 6, frames: 5, scenes: vec![scene] }
+        BenchReport { schema: SCHEMA, made, width: 8, height: 6, frames: 5, moving: Moving::All, scenes: vec![scene] }
     }
 
     #[test]
@@ -181,13 +189,14 @@ mod tests {
         // The first field has a comma of its own.
         assert_eq!(lines[1].split(',').count(), lines[0].split(',').count() + 1, "{csv}");
         assert!(lines[1].starts_with("\"a,b.obj\",0,point,shadow-map,size=512,ok,,2,1,0.333333,"), "{csv}");
+        assert!(lines[1].ends_with(",1.25,edges=7;caps=2"), "{csv}");
         assert!(lines[2].contains("\"lost, \"\"gone\"\"\""), "{csv}");
     }
 
     #[test]
     fn the_table_names_passes_and_failures() {
         let text = report().tables();
-        for part in ["shadow-map size=512", "map 2.00", "1.25", "lost, \"gone\""] {
+        for part in ["light 0 (point)", "moving: all", "shadow-map size=512", "map 2.00", "1.25", "lost, \"gone\""] {
             assert!(text.contains(part), "{part} is missing in\n{text}");
         }
     }

@@ -143,5 +143,6 @@ fn cost(frames: &Frames, renderer: &Renderer) -> CostRecord {
         draws: stats.draws,
         triangles: stats.triangles,
         bytes: stats.bytes,
+        counts: renderer.counts(0),
     }
 }

@@ -1,7 +1,7 @@
 //! The data of `report.json`. Names are stable; a change that breaks readers raises [`SCHEMA`].
 
 use crate::{made::Made, round::maybe_six, round::six};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use umbrage_metrics::Scores;
 
@@ -189,6 +189,14 @@ pub struct CostRecord {
     pub triangles: u64,
     /// GPU memory it holds, bytes.
     pub bytes: u64,
+    /// What else its last frame came to, by name, in the technique's own order.
+    #[serde(serialize_with = "in_order")]
+    pub counts: Vec<(&'static str, u64)>,
+}
+
+/// Writes counts as an object with the names in the order given.
+pub(crate) fn in_order<S: Serializer>(counts: &[(&str, u64)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(counts.iter().copied())
 }
 
 /// GPU time of a pass.
@@ -245,6 +253,7 @@ pub(crate) fn fixture() -> Report {
         draws: 12,
         triangles: 3456,
         bytes: 4 << 20,
+        counts: vec![("edges", 40), ("caps", 2)],
     });
     let light = LightRecord {
         light: 0,
@@ -297,6 +306,8 @@ mod tests {
             (&"unsupported".into(), &"not for line lights".into())
         );
         assert_eq!(results[2]["status"], "failed");
+        let text = serde_json::to_string(&fixture()).unwrap();
+        assert!(text.contains(r#""counts":{"edges":40,"caps":2}"#), "{text}");
     }
 
     #[test]

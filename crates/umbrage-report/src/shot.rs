@@ -5,7 +5,7 @@ use crate::{
     truth::Tracing,
 };
 use std::path::Path;
-use umbrage::{Gpu, LightPass, Renderer, Technique};
+use umbrage::{DebugView, Gpu, LightPass, Renderer, Technique};
 use umbrage_core::{Image, Light};
 use umbrage_io::pictures;
 use umbrage_reference::Truth;
@@ -176,11 +176,8 @@ impl Shot {
             Aov::Normal => Picture::Normal(renderer.normal()?),
             Aov::Visibility | Aov::Scored => Picture::Share(renderer.visibility(0)?),
             Aov::Inside(name) => {
-                let technique = renderer.technique(0);
-                let views = technique.map(|t| t.debug_views()).unwrap_or_default();
-                let mut names: Vec<&str> = views.iter().map(|v| v.name).collect();
-                names.extend(technique.map(|t| t.views()).unwrap_or_default());
-                let view = views.iter().find(|v| v.name == name).ok_or_else(|| unknown_view(name, &names))?;
+                let views = renderer.technique(0).map(|t| t.debug_views()).unwrap_or_default();
+                let view = views.iter().find(|v| v.name == name).ok_or_else(|| self.no_view(name, &views))?;
                 if view.texture.format().components() == 4 {
                     Picture::Color(renderer.read_debug_color(view)?)
                 } else {
@@ -188,6 +185,20 @@ impl Shot {
                 }
             }
         })
+    }
+
+    /// Why there is no such picture of the inside.
+    fn no_view(&self, name: &str, made: &[DebugView<'_>]) -> Error {
+        let known = match &self.method {
+            Method::Technique(choice) => choice.info.views,
+            Method::RayTraced { .. } => &[],
+        };
+        if !known.contains(&name) {
+            return unknown_view(name, known);
+        }
+        let made: Vec<&str> = made.iter().map(|v| v.name).collect();
+        let made = if made.is_empty() { "none".into() } else { made.join(", ") };
+        Error::Name(format!("there is no `{name}` of this light; its views: {made}"))
     }
 
     fn first_light(&self) -> Result<&Light, Error> {

@@ -252,9 +252,9 @@ impl Casters {
         self.placed.is_empty()
     }
 
-    /// GPU memory held, textures apart.
+    /// GPU memory held, textures apart. Edges count from when a technique first asks for them.
     pub fn bytes(&self) -> u64 {
-        self.bytes
+        self.bytes + self.edges.get().map_or(0, Edges::bytes)
     }
 
     /// Boxes around the instances that throw shadows.

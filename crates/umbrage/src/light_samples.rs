@@ -149,10 +149,6 @@ impl Technique for LightSamples {
         self.inner.counts()
     }
 
-    fn views(&self) -> &'static [&'static str] {
-        self.inner.views()
-    }
-
     fn inspect(&mut self, view: Option<&str>) {
         self.inner.inspect(view);
     }

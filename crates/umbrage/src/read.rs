@@ -16,7 +16,9 @@ pub(crate) fn one_channel(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Res
     let bytes = rows(gpu, texture, layer)?;
     let data = match texture.format() {
         wgpu::TextureFormat::R16Float => halves(&bytes),
-        wgpu::TextureFormat::R32Float | wgpu::TextureFormat::Depth32Float => {
+        wgpu::TextureFormat::R32Float
+        | wgpu::TextureFormat::Depth32Float
+        | wgpu::TextureFormat::Depth32FloatStencil8 => {
             bytes.as_chunks::<4>().0.iter().map(|b| f32::from_le_bytes(*b)).collect()
         }
         other => return Err(Error::Driver(format!("pictures of {other:?} textures can't be read back"))),
@@ -57,7 +59,10 @@ fn image<T>(texture: &wgpu::Texture, data: Vec<T>) -> Image<T> {
 /// The texels of a layer without padding between rows.
 fn rows(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Result<Vec<u8>, Error> {
     let (width, height) = (texture.width(), texture.height());
-    let texel = texture.format().block_copy_size(Some(wgpu::TextureAspect::All)).unwrap_or(4);
+    // Of a format with stencil the depth is read.
+    let has_stencil = texture.format().has_stencil_aspect();
+    let aspect = if has_stencil { wgpu::TextureAspect::DepthOnly } else { wgpu::TextureAspect::All };
+    let texel = texture.format().block_copy_size(Some(aspect)).unwrap_or(4);
     let row = width * texel;
     let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -72,7 +77,7 @@ fn rows(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Result<Vec<u8>, Error
             texture,
             mip_level: 0,
             origin: wgpu::Origin3d { x: 0, y: 0, z: layer },
-            aspect: wgpu::TextureAspect::All,
+            aspect,
         },
         wgpu::TexelCopyBufferInfo {
             buffer: &buffer,

@@ -23,6 +23,23 @@ pub trait Technique: Send {
     /// As [`Technique::prepare`].
     fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error>;
 
+    /// In place of `prepare` and `record` of one light: leaves 0 in `visibility` where a point is in the shadow of any of the
+    /// views' lights, else 1. Known to be wrong for more than one light, and kept to be compared with (PX 3.4). The views differ in
+    /// nothing but the light.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for a technique that does not know this, and as [`Technique::prepare`].
+    fn record_overlay(
+        &mut self,
+        _gpu: &Gpu,
+        _passes: &mut Passes<'_>,
+        _views: &[View<'_>],
+        _visibility: &VisibilityTarget,
+    ) -> Result<(), Error> {
+        let (technique, what) = ("this technique".into(), "all lights at once; `volume` is".into());
+        Err(Error::Unsupported { technique, what })
+    }
+
     /// What the last frame drew and what is held.
     fn stats(&self) -> Stats;
 
@@ -37,16 +54,11 @@ pub trait Technique: Send {
         Vec::new()
     }
 
-    /// Names of pictures of the inside that are only drawn when asked for with [`Technique::inspect`].
-    fn views(&self) -> &'static [&'static str] {
-        &[]
-    }
-
-    /// From the next frame on draws this one of [`Technique::views`], too, and shows it among
-    /// [`Technique::debug_views`]; `None` and other names end that.
+    /// From the next frame on draws this one of [`TechniqueInfo::views`] where a frame does not make it anyway, and shows it
+    /// among [`Technique::debug_views`]; `None` and other names end that.
     fn inspect(&mut self, _view: Option<&str>) {}
 
-    /// Pictures of what is inside.
+    /// Pictures of what is inside, as far as the last frame made them.
     fn debug_views(&self) -> Vec<DebugView<'_>> {
         Vec::new()
     }
@@ -99,6 +111,8 @@ pub struct TechniqueInfo {
     pub hard: bool,
     /// Its parameters.
     pub params: &'static [Param],
+    /// Names of the pictures of its inside; a light may come without some of them.
+    pub views: &'static [&'static str],
     /// Its shaders.
     pub shaders: &'static [Shader],
     /// Its README.

@@ -63,6 +63,7 @@ fn values_out_of_range_name_the_range() {
     refused(&[], "compare contact --samples 0 -o out", &["--samples", "1.."]);
     refused(&[], "render contact --aov visibility -o a.png", &["--light"]);
     refused(&[], "render contact --technique none --light-samples 4 -o a.png", &["not a hard technique"]);
+    refused(&[], "bench contact --moving lihgts", &["--moving", "lihgts", "did you mean `lights`", "none, lights"]);
 }
 
 #[test]
@@ -105,6 +106,13 @@ fn an_adapter_that_is_not_there_is_named() {
 fn a_size_beyond_the_adapter_is_refused_with_its_limit() {
     refused(&[], "render contact --size 999999x4 -o a.png", &["999999", "the adapter allows 1 to"]);
     refused(&[], "bench contact --size 999999x4", &["999999", "the adapter allows 1 to"]);
+}
+
+#[test]
+fn a_view_that_is_not_there_comes_with_those_that_are() {
+    let render = "render city:0.05 --light 0 --size 32x24 -o a.png";
+    refused(&[], &format!("{render} --technique volume --aov volums"), &["did you mean `volumes`", "count, overdraw"]);
+    refused(&[], &format!("{render} --technique pcf --aov map-3"), &["no `map-3` of this light; its views: map-0"]);
 }
 
 #[test]

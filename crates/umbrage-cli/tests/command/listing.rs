@@ -36,6 +36,10 @@ fn list_has_the_whole_registry() {
     for id in techniques {
         assert!(text.contains(id), "{id} is missing in\n{text}");
     }
+    for (info, listed) in umbrage::techniques().iter().zip(&list["techniques"].as_array().expect("a list")[1..]) {
+        assert_eq!(listed["views"], serde_json::json!(info.views), "{}", info.id);
+        assert!(text.contains(&info.views.join(", ")), "views of {} are missing in\n{text}", info.id);
+    }
 }
 
 #[test]

@@ -81,6 +81,34 @@ fn bench_sets_techniques_against_the_floor() {
     assert_eq!(csv.lines().count(), 1 + names.len());
 }
 
+#[test]
+fn bench_moves_lights_and_casters_and_puts_lights_together() {
+    let bench = |more: &str| {
+        let arguments = format!("bench contact --techniques volume,pcf:size=64 --frames 3 --size 96x72 --json {more}");
+        let json = output(Path::new("."), &arguments.split_whitespace().collect::<Vec<_>>());
+        serde_json::from_str::<Value>(&json).expect("JSON")
+    };
+    let apart = bench("");
+    let lights = apart["scenes"][0]["lights"].as_array().expect("lights");
+    assert_eq!(
+        (&apart["moving"], &lights[1]["light"], &lights[1]["together"]),
+        (&"none".into(), &1.into(), &Value::Null)
+    );
+    let report = bench("--moving all --lights-together");
+    assert_eq!(report["moving"], "all");
+    let together = report["scenes"][0]["lights"].as_array().expect("lights");
+    assert_eq!(together.len(), 1);
+    assert_eq!((&together[0]["light"], &together[0]["kind"]), (&Value::Null, &"all".into()));
+    assert_eq!(together[0]["together"], serde_json::json!((0..lights.len()).collect::<Vec<_>>()));
+    let results = together[0]["results"].as_array().expect("results");
+    assert!(results.iter().all(|r| r["status"] == "ok"), "{report}");
+    let casters = |light: &Value| {
+        let volume = light["results"].as_array().and_then(|r| r.iter().find(|r| r["technique"] == "volume"));
+        volume.and_then(|v| v["cost"]["counts"]["casters"].as_u64()).expect("a count of casters")
+    };
+    assert_eq!(casters(&together[0]), lights.iter().map(casters).sum::<u64>());
+}
+
 /// The scene of the stored reference below: a box over a plane.
 const SCENE: &str = "\
 [camera]

@@ -28,7 +28,7 @@ use umbrage_core::light_view::{Fit, FitScene, Focus, LightView, fit};
 use umbrage_core::{Bounds, Frustum, LightKind, LightKinds};
 
 /// Names of the pictures inside, one a layer.
-const LAYER_NAMES: [&str; 6] = ["map-0", "map-1", "map-2", "map-3", "map-4", "map-5"];
+pub(crate) const LAYER_NAMES: [&str; 6] = ["map-0", "map-1", "map-2", "map-3", "map-4", "map-5"];
 
 /// The format of maps: floats, since reversed depth needs their precision far away.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;

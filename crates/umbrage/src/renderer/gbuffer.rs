@@ -31,7 +31,10 @@ const WIDE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// The targets and what draws them.
 pub(super) struct GBuffer {
     pub(super) depth: wgpu::Texture,
+    /// Of the depth alone.
     pub(super) depth_view: wgpu::TextureView,
+    /// Of depth and stencil, for techniques that count in it; `None` where the adapter has no such format.
+    pub(super) stencil_view: Option<wgpu::TextureView>,
     /// Geometric normal turned to the eye, packed.
     pub(super) normal: wgpu::Texture,
     pub(super) normal_view: wgpu::TextureView,
@@ -50,7 +53,11 @@ pub(super) struct GBuffer {
 impl GBuffer {
     pub(super) fn new(gpu: &Gpu, width: u32, height: u32) -> Self {
         let texture = |label, format| target_texture(gpu, label, (width, height), 1, format);
-        let depth = texture("depth", wgpu::TextureFormat::Depth32Float);
+        let depth = texture("depth", depth_format(gpu));
+        let depth_view = depth.create_view(&wgpu::TextureViewDescriptor {
+            aspect: wgpu::TextureAspect::DepthOnly,
+            ..Default::default()
+        });
         let normal = texture("geometric normal", PACKED);
         let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
         let view_layout = layout(gpu, "camera", wgpu::ShaderStages::VERTEX_FRAGMENT, &[UNIFORM]);
@@ -58,7 +65,8 @@ impl GBuffer {
         let uniforms = gpu.buffer("camera", &[GBufferView::default()], usage);
         let bind_group = bind(gpu, "camera", &view_layout, &[uniforms.as_entire_binding()]);
         Self {
-            depth_view: view(&depth),
+            stencil_view: depth.format().has_stencil_aspect().then(|| view(&depth)),
+            depth_view,
             depth,
             normal_view: view(&normal),
             normal,
@@ -92,7 +100,7 @@ impl GBuffer {
         passes.upload(&self.uniforms, bytemuck::bytes_of(&data));
         let clear = |view| attachment(view, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));
         let depth = wgpu::RenderPassDepthStencilAttachment {
-            view: &self.depth_view,
+            view: self.stencil_view.as_ref().unwrap_or(&self.depth_view),
             depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
             stencil_ops: None,
         };
@@ -100,6 +108,15 @@ impl GBuffer {
         let mut pass = passes.render("gbuffer", &targets, Some(depth));
         pass.set_bind_group(0, &self.bind_group, &[]);
         self.list.draw(&mut pass, casters, true, |masked| &self.pipelines[usize::from(masked)]);
+    }
+}
+
+/// Floats, with a stencil where there can be one.
+fn depth_format(gpu: &Gpu) -> wgpu::TextureFormat {
+    if gpu.has(wgpu::Features::DEPTH32FLOAT_STENCIL8) {
+        wgpu::TextureFormat::Depth32FloatStencil8
+    } else {
+        wgpu::TextureFormat::Depth32Float
     }
 }
 
@@ -120,7 +137,7 @@ fn pipeline(gpu: &Gpu, view_layout: &wgpu::BindGroupLayout, entry: &str) -> wgpu
         },
         primitive: Default::default(),
         depth_stencil: Some(wgpu::DepthStencilState {
-            format: wgpu::TextureFormat::Depth32Float,
+            format: depth_format(gpu),
             depth_write_enabled: Some(true),
             depth_compare: Some(wgpu::CompareFunction::Greater),
             stencil: Default::default(),

@@ -1,6 +1,7 @@
 //! The built-in consumer of visibility: a G-buffer, each light added under its visibility, tone mapping.
 
 mod gbuffer;
+mod overlay;
 mod shading;
 mod tonemap;
 
@@ -8,7 +9,7 @@ use crate::{
     casters::Casters,
     error::Error,
     gpu::Gpu,
-    passes::{PassTime, Recorder},
+    passes::{PassTime, Passes, Recorder},
     read,
     receivers::Receivers,
     shader::Shader,
@@ -17,13 +18,14 @@ use crate::{
     visibility::VisibilityTarget,
 };
 use gbuffer::GBuffer;
+use overlay::Overlay;
 use shading::Shading;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use tonemap::ToneMap;
-use umbrage_core::{Camera, Image, Light, Scene, Texture};
+use umbrage_core::{Camera, CameraView, Image, Light, Scene, Texture};
 
 /// Shaders of the renderer, for tests.
-pub const SHADERS: &[Shader] = &[gbuffer::SHADER, shading::SHADER, tonemap::SHADER];
+pub const SHADERS: &[Shader] = &[gbuffer::SHADER, overlay::SHADER, shading::SHADER, tonemap::SHADER];
 
 /// One light and the technique that shadows it.
 pub struct LightPass {
@@ -47,6 +49,7 @@ pub struct Renderer {
     textures: Vec<Texture>,
     ambient: [f32; 3],
     prepare_ms: f64,
+    overlay: Option<Overlay>,
 }
 
 /// A light, its technique and what came out.
@@ -56,6 +59,21 @@ struct Lit {
     technique: Box<dyn Technique>,
     visibility: VisibilityTarget,
     slot: shading::Slot,
+}
+
+/// What the views of all lights of a frame share.
+struct Visible<'a> {
+    camera: CameraView,
+    receivers: &'a Receivers,
+    casters: &'a Casters,
+    textures: &'a [Texture],
+}
+
+impl<'a> Visible<'a> {
+    fn view(&self, light: &'a Light) -> View<'a> {
+        let Self { camera, receivers, casters, textures } = *self;
+        View { camera, receivers, casters, light, textures }
+    }
 }
 
 impl Renderer {
@@ -68,7 +86,10 @@ impl Renderer {
         gpu.check_size("the picture", width, height)?;
         let casters = Casters::new(gpu, scene)?;
         let gbuffer = GBuffer::new(gpu, width, height);
-        let receivers = Receivers::new(gpu, &gbuffer.depth_view, Some(&gbuffer.normal_view), (width, height));
+        let mut receivers = Receivers::new(gpu, &gbuffer.depth_view, Some(&gbuffer.normal_view), (width, height));
+        if let Some(view) = &gbuffer.stencil_view {
+            receivers = receivers.with_stencil(view);
+        }
         let shading = Shading::new(gpu, &gbuffer);
         let tonemap = ToneMap::new(gpu, &gbuffer, width, height);
         let textured =
@@ -99,6 +120,7 @@ impl Renderer {
             textures: if textured { scene.textures.clone() } else { Vec::new() },
             ambient: scene.ambient.to_array(),
             prepare_ms: 0.0,
+            overlay: None,
         })
     }
 
@@ -114,28 +136,52 @@ impl Renderer {
         let mut passes = self.recorder.begin(&mut encoder);
         passes.owner("gbuffer");
         self.gbuffer.record(&self.gpu, &mut passes, &self.casters, &camera, self.ambient);
-        self.prepare_ms = 0.0;
-        for lit in &mut self.lights {
-            passes.owner(format!("light {}", lit.number));
-            let view = View {
-                camera,
-                receivers: &self.receivers,
-                casters: &self.casters,
-                light: &lit.light,
-                textures: &self.textures,
-            };
+        let scene = Visible { camera, receivers: &self.receivers, casters: &self.casters, textures: &self.textures };
+        let start = Instant::now();
+        let mut shading_time = Duration::ZERO;
+        let mut shade = |passes: &mut Passes<'_>, lit: &Lit| {
             let start = Instant::now();
-            lit.technique.prepare(&self.gpu, &view)?;
-            lit.technique.record(&mut passes, &view, &lit.visibility)?;
-            self.prepare_ms += start.elapsed().as_secs_f64() * 1e3;
             passes.owner("shading");
-            self.shading.record(&mut passes, &self.gbuffer, &view, &lit.slot);
+            self.shading.record(passes, &self.gbuffer, &scene.view(&lit.light), &lit.slot);
+            shading_time += start.elapsed();
+        };
+        if let Some(overlay) = &self.overlay {
+            overlay.find(&self.gpu, &mut passes, &scene, &mut self.lights)?;
+            self.lights.iter().for_each(|lit| shade(&mut passes, lit));
+            overlay.record(&mut passes, &self.gbuffer);
+        } else {
+            for lit in &mut self.lights {
+                passes.owner(format!("light {}", lit.number));
+                let view = scene.view(&lit.light);
+                lit.technique.prepare(&self.gpu, &view)?;
+                lit.technique.record(&mut passes, &view, &lit.visibility)?;
+                shade(&mut passes, lit);
+            }
         }
+        self.prepare_ms = start.elapsed().saturating_sub(shading_time).as_secs_f64() * 1e3;
         passes.owner("shading");
         self.tonemap.record(&mut passes);
         passes.finish();
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.check()
+    }
+
+    /// From the next frame on shades by the single-pass algorithm (PX 3.4): every light shines everywhere, and whatever is in
+    /// the shadow of any of them loses this share of its light; wrong, and kept to be compared with. The first light's technique
+    /// does all lights. `None` returns to the right one.
+    ///
+    /// # Errors
+    /// [`Error::Size`].
+    pub fn set_overlay(&mut self, darkness: Option<f32>) -> Result<(), Error> {
+        self.overlay = darkness.map(|d| Overlay::new(&self.gpu, self.receivers.size, d)).transpose()?;
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        let mut passes = self.recorder.begin(&mut encoder);
+        for lit in &self.lights {
+            passes.render("lit", &[lit.visibility.overwrite()], None);
+        }
+        passes.finish();
+        self.gpu.queue.submit([encoder.finish()]);
+        Ok(())
     }
 
     /// Waits until submitted frames are done.
@@ -159,6 +205,11 @@ impl Renderer {
     /// What the technique of pass number `pass` drew and holds.
     pub fn stats(&self, pass: usize) -> Stats {
         self.lights.get(pass).map(|l| l.technique.stats()).unwrap_or_default()
+    }
+
+    /// What else the last frame of pass number `pass` came to; see [`Technique::counts`].
+    pub fn counts(&self, pass: usize) -> Vec<(&'static str, u64)> {
+        self.lights.get(pass).map(|l| l.technique.counts()).unwrap_or_default()
     }
 
     /// The technique of pass number `pass`.

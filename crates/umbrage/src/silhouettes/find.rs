@@ -6,22 +6,20 @@ use crate::casters::{Edges, STORAGE};
 use crate::fullscreen::{UNIFORM, layout};
 use crate::shader::shader_struct;
 use crate::{gpu::Gpu, passes::Passes};
+use std::ops::Range;
 
 shader_struct! {
     /// See `wgsl/find_silhouettes.wgsl`.
     pub(crate) struct FindSilhouettes {
         edge_chunks: u32,
         triangle_chunks: u32,
-        vertices_per_side: [u32; 2],
-        vertices_per_cap: u32,
         weighted: u32,
-        pad_a: u32,
-        pad_b: u32,
+        pad: u32,
     }
 }
 
 /// Bytes of the arguments of an indirect draw.
-pub(super) const ARGUMENTS: u64 = size_of::<wgpu::util::DrawIndirectArgs>() as u64;
+pub(super) const ARGUMENTS: u64 = size_of::<wgpu::util::DrawIndexedIndirectArgs>() as u64;
 
 /// Workgroups in a row, the most that every adapter allows.
 const ROW: u32 = 65_535;
@@ -30,6 +28,7 @@ pub(super) struct Find {
     layout: wgpu::BindGroupLayout,
     sides: wgpu::ComputePipeline,
     caps: wgpu::ComputePipeline,
+    group: wgpu::ComputePipeline,
 }
 
 impl Find {
@@ -56,7 +55,7 @@ impl Find {
                 cache: None,
             })
         };
-        Self { sides: pipeline("find_sides"), caps: pipeline("find_caps"), layout }
+        Self { sides: pipeline("find_sides"), caps: pipeline("find_caps"), group: pipeline("group_entries"), layout }
     }
 
     pub fn layout(&self) -> &wgpu::BindGroupLayout {
@@ -66,21 +65,20 @@ impl Find {
     pub fn record(&self, passes: &mut Passes<'_>, buffers: &Buffers, edges: &Edges, work: &Work, shape: Shape) {
         let Some(bind_group) = &buffers.find else { return };
         let triangle_chunks = work.chunks.len() as u32 - work.edge_chunks;
-        let uniform = FindSilhouettes {
-            edge_chunks: work.edge_chunks,
-            triangle_chunks,
-            vertices_per_side: [Part::PassSides, Part::FailSides].map(|part| shape.vertices(part)),
-            vertices_per_cap: shape.vertices(Part::Caps),
-            weighted: shape.weighted.into(),
-            ..FindSilhouettes::default()
-        };
+        let edge_chunks = work.edge_chunks;
+        let uniform =
+            FindSilhouettes { edge_chunks, triangle_chunks, weighted: shape.weighted.into(), ..Default::default() };
         passes.upload(&buffers.find_uniform, bytemuck::bytes_of(&uniform));
-        let arguments = Part::ALL.map(|part| [0, 1, work.first(part) * shape.vertices(part), 0]);
+        passes.upload(&buffers.list, bytemuck::cast_slice(&work.header()));
+        let arguments = Part::ALL.map(|part| {
+            let Range { start, end } = shape.indices(part);
+            [end - start, 0, start, part.first_vertex(), 0]
+        });
         passes.upload(&buffers.arguments, bytemuck::cast_slice(&arguments));
         let mut pass = passes.compute("silhouettes");
         pass.set_bind_group(0, bind_group, &[]);
         pass.set_bind_group(1, &edges.find, &[]);
-        for (pipeline, groups) in [(&self.sides, work.edge_chunks), (&self.caps, triangle_chunks)] {
+        for (pipeline, groups) in [(&self.sides, edge_chunks), (&self.caps, triangle_chunks), (&self.group, 1)] {
             if groups > 0 {
                 pass.set_pipeline(pipeline);
                 pass.dispatch_workgroups(groups.min(ROW), groups.div_ceil(ROW), 1);

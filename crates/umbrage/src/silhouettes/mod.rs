@@ -12,6 +12,7 @@ use crate::fullscreen::{UNIFORM, layout};
 use crate::shader::{HostLayout, Shader, shader_struct};
 use crate::{casters::Casters, error::Error, gpu::Gpu, passes::Passes};
 use find::Find;
+use std::ops::Range;
 use umbrage_core::glam::{DMat4, DVec4};
 use umbrage_core::silhouette::{Rule, light_in_mesh};
 use work::{Buffers, Work};
@@ -67,6 +68,9 @@ const DARK_CAP: u32 = 16;
 
 /// Edges, or triangles, of one caster that go together.
 const CHUNK: u32 = 64;
+
+/// Vertex numbers of one part end before those of the next one start.
+const VERTICES: u32 = 512;
 
 /// Where silhouettes are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -124,11 +128,23 @@ impl Shape {
         part != Part::Caps && self.parallel[part as usize]
     }
 
-    /// Corners of one side or cap.
-    fn vertices(self, part: Part) -> u32 {
-        let is_three = if part == Part::Caps { !self.dark_caps } else { self.is_parallel(part) };
-        if is_three { 3 } else { 6 }
+    /// The indices of a group of the part's entries, see [`indices`].
+    fn indices(self, part: Part) -> Range<u32> {
+        match (part, self.dark_caps) {
+            (Part::Caps, true) => 576..960,
+            (Part::Caps, false) => 960..1152,
+            _ if self.is_parallel(part) => 384..576,
+            _ => 0..384,
+        }
     }
+}
+
+/// For 64 sides of four corners two triangles each; then one triangle each, since both shadows are one point. For 64 caps of six
+/// corners both triangles each; then the light caps alone.
+fn indices() -> Vec<u16> {
+    let each = |stride: u16, corners: &'static [u16]| (0..64).flat_map(move |i| corners.iter().map(move |c| i * stride + c));
+    let sides = each(4, &[0, 1, 2, 0, 2, 3]).chain(each(4, &[0, 1, 2]));
+    sides.chain(each(6, &[0, 1, 2, 3, 4, 5])).chain(each(6, &[0, 1, 2])).collect()
 }
 
 /// What the user of silhouettes chooses of their [`Shape`].
@@ -153,6 +169,11 @@ pub(crate) enum Part {
 
 impl Part {
     pub const ALL: [Self; 3] = [Self::PassSides, Self::FailSides, Self::Caps];
+
+    /// By which the shader knows it.
+    fn first_vertex(self) -> u32 {
+        self as u32 * VERTICES
+    }
 }
 
 /// Silhouettes of one light's casters.
@@ -162,6 +183,7 @@ pub(crate) struct Silhouettes {
     work: Work,
     shape: Shape,
     extrusion: Extrusion,
+    indices: wgpu::Buffer,
     draw_layout: wgpu::BindGroupLayout,
     buffers: Option<Buffers>,
 }
@@ -176,6 +198,7 @@ impl Silhouettes {
             work: Work::default(),
             shape: Shape::default(),
             extrusion: Extrusion::default(),
+            indices: gpu.buffer("corners of sides and caps", &indices(), wgpu::BufferUsages::INDEX),
             draw_layout: layout(gpu, "silhouettes", wgpu::ShaderStages::VERTEX, &[&storage[..], &[UNIFORM]].concat()),
             buffers: None,
         }
@@ -251,26 +274,32 @@ impl Silhouettes {
         }
     }
 
-    /// Draws a part with the pipeline that is set. True where there was something to draw.
+    /// Draws a part with the pipeline that is set.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, edges: &Edges, part: Part) {
         let Some(buffers) = &self.buffers else { return };
         pass.set_bind_group(0, &buffers.draw, &[]);
         pass.set_bind_group(1, &edges.draw, &[]);
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint16);
+        let indices = self.shape.indices(part);
         match self.extrude {
-            Extrude::Compute => pass.draw_indirect(&buffers.arguments, part as u64 * find::ARGUMENTS),
-            Extrude::Cpu => pass.draw(self.work.listed(part, self.shape), 0..1),
-            Extrude::Vertex => pass.draw(self.work.all(part, self.shape), 0..self.work.repeats(part, self.shape)),
+            Extrude::Compute => pass.draw_indexed_indirect(&buffers.arguments, part as u64 * find::ARGUMENTS),
+            Extrude::Cpu => pass.draw_indexed(indices, part.first_vertex() as i32, self.work.listed(part)),
+            Extrude::Vertex => {
+                for again in 0..self.work.repeats(part, self.shape) {
+                    pass.draw_indexed(indices.clone(), (again * VERTICES) as i32, self.work.all(part));
+                }
+            }
         }
     }
 
     /// True where a part has nothing to draw, as far as the CPU knows.
     pub fn is_empty(&self, part: Part) -> bool {
-        self.work.all(part, self.shape).is_empty()
+        self.work.all(part).is_empty()
     }
 
     /// Bytes of GPU memory, without those of [`Edges`].
     pub fn bytes(&self) -> u64 {
-        self.buffers.as_ref().map_or(0, Buffers::bytes)
+        self.indices.size() + self.buffers.as_ref().map_or(0, Buffers::bytes)
     }
 
     /// Edges, and triangles of caps, that are looked at.
@@ -281,12 +310,6 @@ impl Silhouettes {
     /// Numbers of sides (from the eye, from infinity) and caps that were found, where the CPU found them.
     pub fn found(&self) -> Option<[u32; 3]> {
         (self.extrude == Extrude::Cpu).then(|| self.work.counts())
-    }
-
-    /// The arguments of the indirect draws, to be read back; `None` where silhouettes are not found by compute.
-    pub fn arguments(&self) -> Option<&wgpu::Buffer> {
-        let buffers = self.buffers.as_ref().filter(|_| self.extrude == Extrude::Compute)?;
-        Some(&buffers.arguments)
     }
 }
 

@@ -19,7 +19,7 @@ pub(super) struct Work {
     pub edge_chunks: u32,
     /// Most entries that each part may need.
     room: [u32; 3],
-    /// What the CPU found: lists of the three parts, one after the other as `room` lays them out.
+    /// What the CPU found: the header, then lists of the three parts, one after the other as `room` lays them out.
     pub entries: Vec<u32>,
     counts: [u32; 3],
     edges: u64,
@@ -32,6 +32,9 @@ pub(super) struct Needs {
     chunks: u64,
     list: u64,
 }
+
+/// Words before the entries of a list: for each part where they start and how many there are.
+const HEADER: u32 = 8;
 
 /// More entries than this do not fit their numbering.
 const MOST: u64 = 1 << 29;
@@ -86,7 +89,7 @@ impl Work {
     /// Finds everything on the CPU.
     pub fn list(&mut self, edges: &Edges, casters: &Casters, throws: &[Throw], shape: Shape) {
         self.entries.clear();
-        self.entries.resize(self.room.iter().sum::<u32>() as usize, 0);
+        self.entries.resize((HEADER + self.room.iter().sum::<u32>()) as usize, 0);
         self.counts = [0; 3];
         for (i, throw) in throws.iter().enumerate() {
             let of = self.casters[i];
@@ -112,6 +115,10 @@ impl Work {
                 }
             }
         }
+        for (part, count) in Part::ALL.into_iter().zip(self.counts) {
+            let header = [self.first(part), count];
+            self.entries[2 * part as usize..][..2].copy_from_slice(&header);
+        }
     }
 
     fn push(&mut self, part: Part, entry: u32, times: u32) {
@@ -122,27 +129,30 @@ impl Work {
         }
     }
 
-    /// Where the list of a part starts.
-    pub fn first(&self, part: Part) -> u32 {
-        self.room[..part as usize].iter().sum()
+    /// Where the entries of a part start.
+    fn first(&self, part: Part) -> u32 {
+        HEADER + self.room[..part as usize].iter().sum::<u32>()
     }
 
-    /// Vertices of what the CPU found.
-    pub fn listed(&self, part: Part, shape: Shape) -> Range<u32> {
-        let per = shape.vertices(part);
-        let first = self.first(part);
-        first * per..(first + self.counts[part as usize]) * per
+    /// What the list starts with before anything was found.
+    pub fn header(&self) -> [u32; HEADER as usize] {
+        let mut header = [0; HEADER as usize];
+        Part::ALL.iter().for_each(|part| header[2 * *part as usize] = self.first(*part));
+        header
     }
 
-    /// Vertices of all edges or triangles of a part.
-    pub fn all(&self, part: Part, shape: Shape) -> Range<u32> {
-        let chunks = match part {
+    /// Groups of what the CPU found, an instance each.
+    pub fn listed(&self, part: Part) -> Range<u32> {
+        0..self.counts[part as usize].div_ceil(CHUNK)
+    }
+
+    /// Chunks of all edges or triangles of a part, an instance each.
+    pub fn all(&self, part: Part) -> Range<u32> {
+        match part {
             Part::PassSides => 0..self.pass_chunks,
             Part::FailSides => self.pass_chunks..self.edge_chunks,
             Part::Caps => self.edge_chunks..self.chunks.len() as u32,
-        };
-        let per = CHUNK * shape.vertices(part);
-        chunks.start * per..chunks.end * per
+        }
     }
 
     /// How often every edge is drawn for those that count twice.
@@ -152,7 +162,7 @@ impl Work {
     }
 
     pub fn needs(&self, listed: bool) -> Needs {
-        let entries = if listed { self.room.iter().map(|r| u64::from(*r)).sum() } else { 0 };
+        let entries = if listed { self.room.iter().map(|r| u64::from(*r)).sum::<u64>() + u64::from(HEADER) } else { 0 };
         Needs {
             casters: self.casters.len() as u64 * size_of::<Caster>() as u64,
             chunks: self.chunks.len() as u64 * 4,

@@ -1,6 +1,7 @@
 // Shadow volumes as triangles: sides between an edge and its shadow, light caps, dark caps.
 //
-// All corners come from the same two functions, so that neighbours share them to the last bit and volumes are closed.
+// All corners come from the same two functions, so that neighbours share them to the last bit and volumes are closed. An
+// instance draws 64 sides of four vertices, or 64 caps of six; what is left of the last one falls off the screen.
 
 struct Extrusion {
     clip_from_world: mat4x4f,
@@ -14,17 +15,19 @@ struct Corner {
     @location(0) @interpolate(flat) times: f32,
 }
 
+// For each part where its entries start and how many there are; then the entries.
 @group(0) @binding(2) var<storage, read> list: array<u32>;
 @group(0) @binding(3) var<uniform> extrusion: Extrusion;
 @group(1) @binding(2) var<storage, read> positions: array<f32>;
 @group(1) @binding(3) var<storage, read> indices: array<u32>;
 @group(1) @binding(4) var<storage, read> instances: array<Instance>;
 
-// Sides of a parallel light meet in one point infinitely far away: one triangle each, and no dark cap (GG 9.5.1).
-override PARALLEL: bool = false;
 override WEIGHTED: bool = false;
-// Caps have a dark one, too.
-override HAS_DARK_CAPS: bool = true;
+
+// Vertex numbers of each part, or time that all edges are drawn, start at a multiple of this.
+const PART: u32 = 512u;
+
+const NO_ENTRY: u32 = 0xffffffffu;
 
 // Off the screen, so that the triangle is dropped.
 const NOWHERE: Corner = Corner(vec4f(2.0, 2.0, 0.0, 1.0), 0.0);
@@ -54,18 +57,17 @@ fn on_screen(p: vec4f, times: f32) -> Corner {
     return Corner(extrusion.clip_from_world * p, times);
 }
 
-// Corner 0…5 of a quad end, start, start's shadow, end's shadow, which is outside seen counter-clockwise.
+// Corner 0…3 of a quad: end, start, start's shadow, end's shadow, counter-clockwise seen from outside. With parallel light both
+// shadows are one point, and the quad is drawn as one triangle (GG 9.5.1).
 fn side_corner(entry: u32, corner: u32) -> Corner {
     let slot = entry >> 2u;
     let caster = chunks[slot / CHUNK];
     let edge = edges[casters[caster].first_edge + slot - casters[caster].edge_chunk * CHUNK];
     let is_turned = ((entry & 1u) != 0u) != ((casters[caster].flags & MIRRORED) != 0u);
-    // 0 end, 1 start, 2 dark start; 3 end, 4 dark start, 5 dark end.
-    let of_start = corner == 1u || corner == 2u || corner == 4u;
-    let p = light_corner(caster, select(edge.end, edge.start, of_start != is_turned));
-    let is_dark = corner == 2u || corner >= 4u;
+    let is_start = corner == 1u || corner == 2u;
+    let p = light_corner(caster, select(edge.end, edge.start, is_start != is_turned));
     let times = select(1.0, 2.0, WEIGHTED && (entry & 2u) != 0u);
-    if is_dark {
+    if corner >= 2u {
         return on_screen(dark_corner(caster, p), times);
     }
     return on_screen(vec4f(p, 1.0), times);
@@ -92,19 +94,30 @@ fn cap_corner(entry: u32, corner: u32) -> Corner {
     return on_screen(vec4f(p, 1.0), 1.0);
 }
 
-@vertex
-fn listed_side(@builtin(vertex_index) vertex: u32) -> Corner {
-    let per_side = select(6u, 3u, PARALLEL);
-    return side_corner(list[vertex / per_side], vertex % per_side);
+// The entry of a list that a vertex belongs to.
+fn listed(vertex: u32, group: u32, corners: u32) -> u32 {
+    let part = vertex / PART;
+    let at = group * CHUNK + (vertex % PART) / corners;
+    return select(NO_ENTRY, list[list[2u * part] + at], at < list[2u * part + 1u]);
 }
 
 @vertex
-fn listed_cap(@builtin(vertex_index) vertex: u32) -> Corner {
-    let per_cap = select(3u, 6u, HAS_DARK_CAPS);
-    return cap_corner(list[vertex / per_cap], vertex % per_cap);
+fn listed_side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32) -> Corner {
+    let entry = listed(vertex, group, 4u);
+    if entry == NO_ENTRY {
+        return NOWHERE;
+    }
+    return side_corner(entry, vertex % 4u);
 }
 
-const NO_ENTRY: u32 = 0xffffffffu;
+@vertex
+fn listed_cap(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32) -> Corner {
+    let entry = listed(vertex, group, 6u);
+    if entry == NO_ENTRY {
+        return NOWHERE;
+    }
+    return cap_corner(entry, (vertex % PART) % 6u);
+}
 
 // The side at an edge, where that bounds the shadow more than `before` times.
 fn side_at(slot: u32, before: u32) -> u32 {
@@ -118,22 +131,20 @@ fn side_at(slot: u32, before: u32) -> u32 {
 }
 
 // Every edge is drawn, and falls together to nothing where it bounds no shadow: the degenerate quads of PX 3.3.3, except that
-// edges are fetched instead of copied six times. The second instance is for sides that count twice.
+// edges are fetched instead of copied. The second part is for sides that count twice.
 @vertex
-fn any_side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) again: u32) -> Corner {
-    let per_side = select(6u, 3u, PARALLEL);
-    let entry = side_at(vertex / per_side, again);
+fn any_side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) chunk: u32) -> Corner {
+    let entry = side_at(chunk * CHUNK + (vertex % PART) / 4u, vertex / PART);
     if entry == NO_ENTRY {
         return NOWHERE;
     }
-    return side_corner(entry, vertex % per_side);
+    return side_corner(entry, vertex % 4u);
 }
 
 @vertex
-fn any_cap(@builtin(vertex_index) vertex: u32) -> Corner {
-    let per_cap = select(3u, 6u, HAS_DARK_CAPS);
-    let slot = vertex / per_cap;
-    let caster = chunks[slot / CHUNK];
+fn any_cap(@builtin(vertex_index) vertex: u32, @builtin(instance_index) chunk: u32) -> Corner {
+    let slot = chunk * CHUNK + vertex / 6u;
+    let caster = chunks[chunk];
     let triangle = slot - casters[caster].triangle_chunk * CHUNK;
     if triangle >= casters[caster].triangle_count {
         return NOWHERE;
@@ -143,5 +154,5 @@ fn any_cap(@builtin(vertex_index) vertex: u32) -> Corner {
     if all(plane.xyz == vec3f(0.0)) || (f > 0 && (casters[caster].flags & AWAY) != 0u) {
         return NOWHERE;
     }
-    return cap_corner(cap_entry(slot, f < 0), vertex % per_cap);
+    return cap_corner(cap_entry(slot, f < 0), vertex % 6u);
 }

@@ -3,34 +3,23 @@
 struct FindSilhouettes {
     edge_chunks: u32,
     triangle_chunks: u32,
-    // Of sides counted by z-pass, and by z-fail.
-    vertices_per_side: vec2u,
-    vertices_per_cap: u32,
     // A side that counts twice is listed once where counters take weights, else twice.
     weighted: u32,
-    pad_a: u32,
-    pad_b: u32,
+    pad: u32,
 }
 
-struct DrawArguments {
-    vertex_count: atomic<u32>,
-    instance_count: u32,
-    first_vertex: u32,
-    first_instance: u32,
-}
-
-@group(0) @binding(2) var<storage, read_write> list: array<u32>;
-// Sides counted by z-pass, sides counted by z-fail, caps.
-@group(0) @binding(3) var<storage, read_write> draws: array<DrawArguments, 3>;
+// For each part where its entries start and how many there are; then the entries.
+@group(0) @binding(2) var<storage, read_write> list: array<atomic<u32>>;
+// Arguments of three indexed indirect draws.
+@group(0) @binding(3) var<storage, read_write> draws: array<u32, 15>;
 @group(0) @binding(4) var<uniform> find: FindSilhouettes;
 
 const CAPS: u32 = 2u;
 
-fn append(draw: u32, vertices: u32, entry: u32, times: u32) {
-    let before = atomicAdd(&draws[draw].vertex_count, vertices * times);
-    let at = (draws[draw].first_vertex + before) / vertices;
+fn append(part: u32, entry: u32, times: u32) {
+    let at = atomicLoad(&list[2u * part]) + atomicAdd(&list[2u * part + 1u], times);
     for (var i = 0u; i < times; i++) {
-        list[at + i] = entry;
+        atomicStore(&list[at + i], entry);
     }
 }
 
@@ -53,9 +42,8 @@ fn find_sides(
     if times == 0 {
         return;
     }
-    let draw = u32((casters[caster].flags & Z_FAIL) != 0u);
-    let entries = select(u32(abs(times)), 1u, find.weighted != 0u);
-    append(draw, find.vertices_per_side[draw], side_entry(chunk * CHUNK + place, times), entries);
+    let part = u32((casters[caster].flags & Z_FAIL) != 0u);
+    append(part, side_entry(chunk * CHUNK + place, times), select(u32(abs(times)), 1u, find.weighted != 0u));
 }
 
 @compute @workgroup_size(64)
@@ -80,5 +68,11 @@ fn find_caps(
     if all(plane.xyz == vec3f(0.0)) || (f > 0 && (casters[caster].flags & AWAY) != 0u) {
         return;
     }
-    append(CAPS, find.vertices_per_cap, cap_entry(chunk * CHUNK + place, f < 0), 1u);
+    append(CAPS, cap_entry(chunk * CHUNK + place, f < 0), 1u);
+}
+
+// Each instance draws a group of entries.
+@compute @workgroup_size(3)
+fn group_entries(@builtin(local_invocation_index) part: u32) {
+    draws[5u * part + 1u] = (atomicLoad(&list[2u * part + 1u]) + CHUNK - 1u) / CHUNK;
 }

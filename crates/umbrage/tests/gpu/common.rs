@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use umbrage::core::{Image, Scene};
 use umbrage::{Gpu, LightPass, Renderer, find};
 use umbrage_metrics::{Comparison, Scores, discontinuities, map_reach, score};
-use umbrage_reference::{Options, Tracer};
+use umbrage_reference::{Geometry, Options, Tracer, Truth};
 
 /// The best adapter. Without one these tests fail and say how to get one.
 pub fn gpu() -> Gpu {
@@ -51,14 +51,20 @@ pub fn against_truth(
     let geometry = tracer.geometry(&scene.camera, size.0, size.1);
     let options = Options { samples, ..Options::default() };
     let truth = tracer.visibility(&geometry, &scene.lights[light], &scene.textures, &options, &|_, _| ());
-    let beside_edges = discontinuities(&geometry.depth, &geometry.model);
-    let mask = Image::from_fn(size.0, size.1, |x, y| {
-        truth.scored[(x, y)] && !beside_edges[(x, y)] && geometry.depth[(x, y)] < 60.0
-    });
+    let mask = mask(&truth, &geometry);
     let views = renderer.technique(0).unwrap().light_views();
     let reach = map_reach(views, &scene.camera, &geometry.depth, &geometry.normal);
     let reference = &truth.visibility;
     score(&Comparison { produced: &produced, reference, mask: &mask, hard: None, reach: Some(&reach) }).unwrap()
+}
+
+/// The pixels to compare: those that are scored, not far away and not beside the edge of a surface.
+pub fn mask(truth: &Truth, geometry: &Geometry) -> Image<bool> {
+    let beside_edges = discontinuities(&geometry.depth, &geometry.model);
+    let (width, height) = geometry.depth.size();
+    Image::from_fn(width, height, |x, y| {
+        truth.scored[(x, y)] && !beside_edges[(x, y)] && geometry.depth[(x, y)] < 60.0
+    })
 }
 
 /// The folder of shared data, where there is one.

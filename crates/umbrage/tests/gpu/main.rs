@@ -6,3 +6,4 @@ mod host;
 mod robust;
 mod shared_references;
 mod steady;
+mod volume;

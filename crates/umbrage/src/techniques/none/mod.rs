@@ -20,6 +20,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     features: wgpu::Features::empty(),
     hard: false,
     params: &[],
+    views: &[],
     shaders: &[],
     readme: include_str!("README.md"),
     make: |_, _| Ok(Box::new(None)),

@@ -2,7 +2,7 @@
 //!
 //! Sources: Reeves, Salesin and Cook 1987; ZA 3.2; FE 2.3.1.
 
-use crate::depth_maps::{BIAS, FACES, FOCUS, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, SHADERS, SIZE};
+use crate::depth_maps::{BIAS, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, SHADERS, SIZE};
 use crate::params::{Param, ParamKind};
 use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, RECEIVERS, Shader};
 use crate::technique::TechniqueInfo;
@@ -45,6 +45,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     features: wgpu::Features::empty(),
     hard: false,
     params: &[SIZE, KERNEL, TAPS, RADIUS, FACES, FOCUS, BIAS],
+    views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], SHADER],
     readme: include_str!("README.md"),
     make: |gpu, settings| {

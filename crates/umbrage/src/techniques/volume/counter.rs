@@ -95,15 +95,25 @@ impl Counter {
         }
     }
 
-    /// Copies the depth where that is needed, clears counts to `start` and begins counting.
-    pub fn begin<'p>(&self, passes: &'p mut Passes<'_>, receivers: &Receivers, start: i32) -> Option<wgpu::RenderPass<'p>> {
+    /// Begins counting: from `start`, with a copy of the depth where that is needed, or from what was counted before.
+    pub fn begin<'p>(
+        &self,
+        passes: &'p mut Passes<'_>,
+        receivers: &Receivers,
+        start: Option<i32>,
+    ) -> Option<wgpu::RenderPass<'p>> {
         let targets = self.targets.as_ref()?;
-        if let (Some(copied), Some(copy)) = (&targets.copied, &self.copy) {
+        if let (Some(copied), Some(copy), Some(_)) = (&targets.copied, &self.copy, start) {
             copy.record(passes, receivers, copied, self.key.depth_format, self.bounds.as_ref());
         }
-        let color = wgpu::LoadOp::Clear(wgpu::Color { r: f64::from(start), ..wgpu::Color::TRANSPARENT });
+        let (color, stencil) = match start {
+            Some(start) => (
+                wgpu::LoadOp::Clear(wgpu::Color { r: f64::from(start), ..wgpu::Color::TRANSPARENT }),
+                wgpu::LoadOp::Clear(start.rem_euclid(256) as u32),
+            ),
+            None => (wgpu::LoadOp::Load, wgpu::LoadOp::Load),
+        };
         let color = targets.counts.as_ref().map(|view| crate::fullscreen::attachment(view, color));
-        let stencil = wgpu::LoadOp::Clear(start.rem_euclid(256) as u32);
         let depth_stencil = self.attachment(Some(stencil))?;
         Some(passes.render("volumes", color.as_slice(), Some(depth_stencil)))
     }

@@ -127,6 +127,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     features: wgpu::Features::empty(),
     hard: true,
     params: PARAMS,
+    views: views::NAMES,
     shaders: &[
         FIND_SHADER,
         COUNT_SHADER,

@@ -3,7 +3,7 @@
 use super::{COUNT_SHADER, RESOLVE_SHADER, options::CounterKind};
 use crate::casters::Edges;
 use crate::fullscreen::{FLOATS, additive, layout, texture};
-use crate::silhouettes::{Part, Shape};
+use crate::silhouettes::Part;
 use crate::{gpu::Gpu, visibility::VisibilityTarget};
 use wgpu::{CompareFunction, StencilFaceState, StencilOperation};
 
@@ -22,7 +22,8 @@ pub(super) enum Test {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Key {
     pub target: TargetKey,
-    pub shape: Shape,
+    /// See [`crate::silhouettes::Shape::weighted`].
+    pub weighted: bool,
     pub test: Test,
     pub part: Part,
     /// Of two passes, the sides left out.
@@ -97,11 +98,7 @@ impl Pipelines {
 
     fn count(&self, gpu: &Gpu, key: Key) -> wgpu::RenderPipeline {
         let on = |switch: bool| if switch { 1.0 } else { 0.0 };
-        let vertex_constants = [
-            ("PARALLEL", on(key.shape.is_parallel(key.part))),
-            ("HAS_DARK_CAPS", on(key.shape.dark_caps)),
-            ("WEIGHTED", on(key.shape.weighted)),
-        ];
+        let vertex_constants = [("WEIGHTED", on(key.weighted))];
         let fragment_constants =
             [("FROM_INFINITY", on(key.test == Test::Fail)), ("PARITY", on(key.test == Test::Parity))];
         let target = [Some(additive(key.target.count_format))];

@@ -9,7 +9,8 @@ use crate::casters::Edges;
 use crate::params::Settings;
 use crate::silhouettes::{Part, Silhouettes, Style};
 use crate::technique::{DebugView, Stats, Technique};
-use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+use umbrage_core::glam::DVec4;
+use crate::{error::Error, gpu::Gpu, passes::Passes, receivers::Receivers, view::View, visibility::VisibilityTarget};
 
 pub(super) struct Volume {
     options: Options,
@@ -45,8 +46,8 @@ impl Volume {
         }
     }
 
-    /// Stencil where it surely does not wrap, and where there is one.
-    fn choose_counter(&self, gpu: &Gpu) -> Result<CounterKind, Error> {
+    /// Stencil where it surely does not wrap and there is one to use; elsewhere floats, which need no copy of the depth.
+    fn choose_counter(&self, gpu: &Gpu, receivers: &Receivers, layers: u32) -> Result<CounterKind, Error> {
         let has_stencil = gpu.has(wgpu::Features::DEPTH32FLOAT_STENCIL8);
         match self.options.counter {
             _ if self.views.as_ref().is_some_and(Views::needs_counts) => Ok(CounterKind::Float),
@@ -55,7 +56,7 @@ impl Volume {
                 what: "this adapter with a stencil counter, since it lacks DEPTH32FLOAT_STENCIL8; set counter=float".into(),
             }),
             Some(kind) => Ok(kind),
-            None if has_stencil && self.selection.layers < STENCIL_LAYERS => Ok(CounterKind::Stencil),
+            None if receivers.stencil.is_some() && layers < STENCIL_LAYERS => Ok(CounterKind::Stencil),
             None => Ok(CounterKind::Float),
         }
     }
@@ -73,17 +74,19 @@ impl Volume {
         for &cull in faces {
             for part in Part::ALL.into_iter().filter(|part| !silhouettes.is_empty(*part)) {
                 let test = if part == Part::PassSides { from_eye } else { Test::Fail };
-                keys.push(Key { target: self.counter.key, shape: silhouettes.shape(), test, part, cull });
+                let weighted = silhouettes.shape().weighted;
+                keys.push(Key { target: self.counter.key, weighted, test, part, cull });
             }
         }
         keys
     }
 
-    fn count_volumes(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges) -> u32 {
+    /// Counts one light's shadows from `start`, or on top of what was counted; returns the number of draws.
+    fn count_volumes(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges, start: Option<i32>) -> u32 {
         let silhouettes = &self.silhouettes;
         silhouettes.record(passes, edges);
         let keys = self.keys();
-        let Some(mut pass) = self.counter.begin(passes, view.receivers, self.selection.eye_count) else { return 0 };
+        let Some(mut pass) = self.counter.begin(passes, view.receivers, start) else { return 0 };
         if let Some([x, y, width, height]) = self.selection.scissor {
             pass.set_scissor_rect(x, y, width, height);
         }
@@ -112,18 +115,15 @@ impl Volume {
     }
 }
 
-impl Technique for Volume {
-    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
+impl Volume {
+    fn choose(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<DVec4, Error> {
         let clamps = gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL);
-        let light = self.selection.choose(gpu, view, &self.options, clamps)?;
         self.casting = view.casters.tree().len() as u32;
-        if self.selection.throws.is_empty() {
-            if let Some(views) = &mut self.views {
-                views.prepare(gpu, view, &self.silhouettes, None);
-            }
-            return Ok(());
-        }
-        self.kind = self.choose_counter(gpu)?;
+        self.selection.choose(gpu, view, &self.options, clamps)
+    }
+
+    /// Makes room and pipelines for what was chosen.
+    fn make_ready(&mut self, gpu: &Gpu, view: &View<'_>, light: DVec4) -> Result<(), Error> {
         let quads = self.options.quads || self.views.as_ref().is_some_and(Views::needs_quads);
         let style = Style { weighted: self.kind == CounterKind::Float, quads };
         let clip_from_world = view.camera.clip_from_world();
@@ -135,8 +135,20 @@ impl Technique for Volume {
         for key in self.keys() {
             self.pipelines.prepare(gpu, key);
         }
+        Ok(())
+    }
+}
+
+impl Technique for Volume {
+    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
+        let light = self.choose(gpu, view)?;
+        let is_lit = self.selection.throws.is_empty();
+        if !is_lit {
+            self.kind = self.choose_counter(gpu, view.receivers, self.selection.layers)?;
+            self.make_ready(gpu, view, light)?;
+        }
         if let Some(views) = &mut self.views {
-            views.prepare(gpu, view, &self.silhouettes, self.counter.counts());
+            views.prepare(gpu, view, &self.silhouettes, self.counter.counts().filter(|_| !is_lit));
         }
         Ok(())
     }
@@ -147,13 +159,51 @@ impl Technique for Volume {
         let edges = view.casters.made_edges();
         match edges.filter(|_| !self.selection.throws.is_empty()) {
             Some(edges) => {
-                self.draws = self.count_volumes(passes, view, edges) + 1;
+                self.draws = self.count_volumes(passes, view, edges, Some(self.selection.eye_count)) + 1;
                 self.resolve(passes, visibility);
             }
             None => drop(passes.render("visibility", &[visibility.overwrite()], None)),
         }
         if let Some(views) = &mut self.views {
             views.record(&self.gpu, passes, view, &self.silhouettes, edges, &self.selection);
+        }
+        Ok(())
+    }
+
+    fn record_overlay(
+        &mut self,
+        gpu: &Gpu,
+        passes: &mut Passes<'_>,
+        views: &[View<'_>],
+        visibility: &VisibilityTarget,
+    ) -> Result<(), Error> {
+        // All counts start with all the shadows that the eye is in.
+        let (mut eye_count, mut layers) = (0, 0_u32);
+        for view in views {
+            visibility.check(view.receivers)?;
+            self.choose(gpu, view)?;
+            eye_count += self.selection.eye_count;
+            layers = layers.saturating_add(self.selection.layers);
+        }
+        let mut start = Some(eye_count);
+        self.draws = 0;
+        for view in views {
+            let light = self.choose(gpu, view)?;
+            if self.selection.throws.is_empty() {
+                continue;
+            }
+            self.kind = self.choose_counter(gpu, view.receivers, layers)?;
+            self.make_ready(gpu, view, light)?;
+            if let Some(edges) = view.casters.made_edges() {
+                self.draws += self.count_volumes(passes, view, edges, start.take());
+            }
+        }
+        self.selection.scissor = None;
+        if start.is_some() {
+            passes.render("visibility", &[visibility.overwrite()], None);
+        } else {
+            self.draws += 1;
+            self.resolve(passes, visibility);
         }
         Ok(())
     }
@@ -197,10 +247,6 @@ impl Technique for Volume {
             counts.extend([("sides", sides), ("caps", caps.into())]);
         }
         counts
-    }
-
-    fn views(&self) -> &'static [&'static str] {
-        views::NAMES
     }
 
     fn inspect(&mut self, view: Option<&str>) {

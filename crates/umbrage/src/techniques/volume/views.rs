@@ -7,7 +7,7 @@ use crate::casters::Edges;
 use crate::depth_maps::Eye;
 use crate::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout, target_texture};
 use crate::shader::shader_struct;
-use crate::silhouettes::{Part, Shape, Silhouettes};
+use crate::silhouettes::{Part, Silhouettes};
 use crate::technique::DebugView;
 use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View};
 
@@ -27,7 +27,7 @@ shader_struct! {
 
 const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// Whole numbers up to 2048: more layers than anybody can tell apart.
-const NUMBERS: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
+const NUMBERS: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
 /// The number that is white in a picture of overdraw.
 const MOST_OVERDRAW: f32 = 256.0;
 
@@ -55,8 +55,8 @@ struct Targets {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Draw {
     Base(&'static str),
-    /// Volumes: the fragment shader, what is drawn, and how.
-    Volumes { entry: &'static str, part: Part, shape: Shape },
+    /// Sides or caps of volumes with this fragment shader.
+    Volumes { entry: &'static str, caps: bool },
 }
 
 impl Views {
@@ -92,6 +92,8 @@ impl Views {
         let size = view.receivers.size;
         if self.targets.as_ref().is_none_or(|t| t.size != size) {
             self.targets = Some(self.targets(gpu, size));
+            // Lines are as wide as pixels.
+            self.pipelines.clear();
         }
         if let (Some(targets), Some(counts)) = (&mut self.targets, counts)
             && targets.counts.as_ref().is_none_or(|(view, _)| view != counts)
@@ -99,9 +101,9 @@ impl Views {
             let bound = bind_numbers(gpu, &self.base_layout, &self.uniform, counts);
             targets.counts = Some((counts.clone(), bound));
         }
-        for draw in self.draws(silhouettes) {
+        for draw in self.draws() {
             if !self.pipelines.iter().any(|(d, _)| *d == draw) {
-                let pipeline = self.pipeline(gpu, draw, silhouettes);
+                let pipeline = self.pipeline(gpu, draw, silhouettes, size);
                 self.pipelines.push((draw, pipeline));
             }
         }
@@ -132,18 +134,19 @@ impl Views {
                 let pass = &mut passes.render("view", &[clear(&targets.color_view)], None);
                 self.fill(pass, view.receivers, entry, bound.map_or(&targets.base, |(_, b)| b));
             }
-            "overdraw" => {
-                {
-                    let pass = &mut passes.render("view overdraw", &[clear(&targets.numbers_view)], None);
-                    self.volumes(pass, silhouettes, edges, "one");
-                }
-                let pass = &mut passes.render("view", &[clear(&targets.color_view)], None);
-                self.fill(pass, view.receivers, "heated", &targets.base);
-            }
-            name => {
+            "silhouettes" => {
                 let pass = &mut passes.render("view", &[clear(&targets.color_view)], None);
                 self.fill(pass, view.receivers, "scene", &targets.base);
-                self.volumes(pass, silhouettes, edges, if name == "volumes" { "tint" } else { "line" });
+                self.volumes(pass, silhouettes, edges, "line");
+            }
+            name => {
+                let (count, base) = if name == "volumes" { ("tint", "volumes") } else { ("one", "heated") };
+                {
+                    let pass = &mut passes.render("view numbers", &[clear(&targets.numbers_view)], None);
+                    self.volumes(pass, silhouettes, edges, count);
+                }
+                let pass = &mut passes.render("view", &[clear(&targets.color_view)], None);
+                self.fill(pass, view.receivers, base, &targets.base);
             }
         }
     }
@@ -166,7 +169,7 @@ impl Views {
         let Some(edges) = edges else { return };
         let is_drawn = |part: &Part| !silhouettes.is_empty(*part) && !(entry == "line" && *part == Part::Caps);
         for part in Part::ALL.into_iter().filter(is_drawn) {
-            if let Some(pipeline) = self.find(volumes_of(silhouettes, entry, part)) {
+            if let Some(pipeline) = self.find(Draw::Volumes { entry, caps: part == Part::Caps }) {
                 pass.set_pipeline(pipeline);
                 silhouettes.draw(pass, edges, part);
             }
@@ -177,11 +180,11 @@ impl Views {
         self.pipelines.iter().find(|(d, _)| *d == draw).map(|(_, pipeline)| pipeline)
     }
 
-    fn draws(&self, silhouettes: &Silhouettes) -> Vec<Draw> {
-        let volumes = |entry| Part::ALL.map(|part| volumes_of(silhouettes, entry, part));
+    fn draws(&self) -> Vec<Draw> {
+        let volumes = |entry| [false, true].map(|caps| Draw::Volumes { entry, caps });
         match self.name {
-            "volumes" => [&[Draw::Base("scene")][..], &volumes("tint")].concat(),
-            "silhouettes" => [&[Draw::Base("scene")][..], &volumes("line")].concat(),
+            "volumes" => [&[Draw::Base("volumes")][..], &volumes("tint")].concat(),
+            "silhouettes" => vec![Draw::Base("scene"), Draw::Volumes { entry: "line", caps: false }],
             "overdraw" => [&[Draw::Base("heated")][..], &volumes("one")].concat(),
             "count" => vec![Draw::Base("scene"), Draw::Base("numbered")],
             _ => Vec::new(),
@@ -196,7 +199,7 @@ impl Views {
         Targets { size, color_view: color.create_view(&Default::default()), color, numbers_view, base, counts: None }
     }
 
-    fn pipeline(&self, gpu: &Gpu, draw: Draw, silhouettes: &Silhouettes) -> wgpu::RenderPipeline {
+    fn pipeline(&self, gpu: &Gpu, draw: Draw, silhouettes: &Silhouettes, size: (u32, u32)) -> wgpu::RenderPipeline {
         match draw {
             Draw::Base(entry) => Fullscreen {
                 label: entry,
@@ -207,20 +210,16 @@ impl Views {
                 constants: &[],
             }
             .pipeline(gpu),
-            Draw::Volumes { entry, part, shape } => {
-                let on = |switch: bool| if switch { 1.0 } else { 0.0 };
-                let constants = [("PARALLEL", on(shape.is_parallel(part))), ("HAS_DARK_CAPS", on(shape.dark_caps))];
+            Draw::Volumes { entry, caps } => {
                 let [side, cap] = silhouettes.entries();
                 let edge = if side == "any_side" { "any_edge" } else { "listed_edge" };
-                let vertex = if entry == "line" { edge } else { [side, cap][usize::from(part == Part::Caps)] };
-                volume_pipeline(gpu, silhouettes, vertex, entry, &constants)
+                let vertex = if entry == "line" { edge } else { [side, cap][usize::from(caps)] };
+                let (width, height) = size;
+                let line = [("LINE_X", 1.4 / f64::from(width)), ("LINE_Y", 1.4 / f64::from(height))];
+                volume_pipeline(gpu, silhouettes, vertex, entry, &line)
             }
         }
     }
-}
-
-fn volumes_of(silhouettes: &Silhouettes, entry: &'static str, part: Part) -> Draw {
-    Draw::Volumes { entry, part, shape: silhouettes.shape() }
 }
 
 fn volume_pipeline(
@@ -239,10 +238,9 @@ fn volume_pipeline(
     let options = || wgpu::PipelineCompilationOptions { constants, ..Default::default() };
     let target = match fragment {
         "one" => additive(NUMBERS),
-        "tint" => additive(COLOR),
+        "tint" => additive(NUMBERS),
         _ => COLOR.into(),
     };
-    let topology = if fragment == "line" { wgpu::PrimitiveTopology::LineList } else { Default::default() };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("view of volumes"),
         layout: Some(&layout),
@@ -253,7 +251,6 @@ fn volume_pipeline(
             buffers: &[],
         },
         primitive: wgpu::PrimitiveState {
-            topology,
             unclipped_depth: gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL),
             ..Default::default()
         },

@@ -1,0 +1,185 @@
+//! Small motion for measurements: what a technique keeps from frame to frame is worth nothing where all moves.
+
+use crate::error::Error;
+use serde::Serialize;
+use std::{f64::consts::TAU, str::FromStr};
+use umbrage::{Gpu, Renderer};
+use umbrage_core::glam::{DAffine3, DVec3};
+use umbrage_core::{Bounds, Camera, LightShape, Scene};
+
+/// What moves from frame to frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Moving {
+    /// Nothing.
+    #[default]
+    None,
+    /// Lights go round a level circle whose radius is 5 % of that of the scene; parallel light turns by 3 degrees.
+    Lights,
+    /// Everything that casts and is not flat sinks and rises by 5 % of its smallest side.
+    Casters,
+    /// The eye circles by 2 % of its distance from what it looks at.
+    Camera,
+    /// All of these.
+    All,
+}
+
+/// Frames until everything is back in its place.
+const PERIOD: u32 = 60;
+const LIGHT_SHARE: f64 = 0.05;
+const LIGHT_TURN_DEG: f64 = 3.0;
+const SINK_SHARE: f64 = 0.05;
+const EYE_SHARE: f64 = 0.02;
+/// Neighbours move out of step by this share of the way round, so that not all are in the same place at once.
+const STEP: f64 = 0.382;
+
+impl Moving {
+    const ALL: [Self; 5] = [Self::None, Self::Lights, Self::Casters, Self::Camera, Self::All];
+
+    /// The name users see.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Lights => "lights",
+            Self::Casters => "casters",
+            Self::Camera => "camera",
+            Self::All => "all",
+        }
+    }
+
+    fn moves(self, part: Self) -> bool {
+        self == part || self == Self::All
+    }
+}
+
+impl FromStr for Moving {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        Self::ALL.into_iter().find(|m| m.name() == text).ok_or_else(|| {
+            let guess = umbrage::nearest(text, Self::ALL.into_iter().map(Self::name));
+            let guess = guess.map_or(String::new(), |name| format!("did you mean `{name}`? "));
+            Error::Name(format!("{guess}there are {}", Self::ALL.map(Self::name).join(", ")))
+        })
+    }
+}
+
+/// The motion of one scene: the same in every renderer.
+pub(crate) struct Motion<'a> {
+    moving: Moving,
+    scene: &'a Scene,
+    /// Radius of the scene, metres.
+    radius: f64,
+    /// Casting instances and how far they sink, metres.
+    sinking: Vec<(usize, f64)>,
+}
+
+impl<'a> Motion<'a> {
+    pub(crate) fn new(moving: Moving, scene: &'a Scene) -> Self {
+        let meshes: Vec<Bounds> = scene.meshes.iter().map(|m| m.bounds()).collect();
+        let casters = scene.instances.iter().enumerate().filter(|(_, i)| i.casts && moving.moves(Moving::Casters));
+        let sinking = casters.map(|(number, instance)| {
+            let smallest = meshes[instance.mesh].transformed(&instance.world_from_mesh).size().min_element();
+            (number, SINK_SHARE * smallest)
+        });
+        let sinking = sinking.filter(|(_, depth)| *depth > 0.0).collect();
+        Self { moving, scene, radius: scene.bounds().radius(), sinking }
+    }
+
+    /// Moves the lights (one a pass) and the casters of `renderer` to where they are in frame `frame`.
+    pub(crate) fn apply(&self, gpu: &Gpu, renderer: &mut Renderer, lights: &[usize], frame: u32) {
+        if self.moving.moves(Moving::Lights) {
+            for (pass, &number) in lights.iter().enumerate() {
+                if let Some(light) = renderer.light_mut(pass) {
+                    light.shape = moved(&self.scene.lights[number].shape, circle(frame, number), self.radius);
+                }
+            }
+        }
+        for &(number, depth) in &self.sinking {
+            let down = DVec3::NEG_Y * (depth * 0.5 * (1.0 - circle(frame, number)[0]));
+            let world_from_mesh = DAffine3::from_translation(down) * self.scene.instances[number].world_from_mesh;
+            renderer.casters_mut().move_instance(gpu, number, &world_from_mesh);
+        }
+    }
+
+    /// The camera of frame `frame`.
+    pub(crate) fn camera(&self, frame: u32) -> Camera {
+        let mut camera = self.scene.camera.clone();
+        if self.moving.moves(Moving::Camera) {
+            let [right, up, _] = camera.axes();
+            let [x, y] = circle(frame, 0).map(|v| v * EYE_SHARE * camera.eye.distance(camera.target));
+            camera.eye += right * x + up * y;
+        }
+        camera
+    }
+}
+
+/// The place on the unit circle of what has this number.
+fn circle(frame: u32, number: usize) -> [f64; 2] {
+    let turns = f64::from(frame % PERIOD) / f64::from(PERIOD) + number as f64 * STEP;
+    let (sin, cos) = (turns * TAU).sin_cos();
+    [cos, sin]
+}
+
+fn moved(shape: &LightShape, [x, z]: [f64; 2], scene_radius: f64) -> LightShape {
+    let mut shape = shape.clone();
+    let by = DVec3::new(x, 0.0, z) * (LIGHT_SHARE * scene_radius);
+    match &mut shape {
+        LightShape::Directional { direction, .. } => {
+            let (a, b) = direction.any_orthonormal_pair();
+            *direction = (*direction + (a * x + b * z) * LIGHT_TURN_DEG.to_radians().tan()).normalize();
+        }
+        LightShape::Line { from, to } => {
+            *from += by;
+            *to += by;
+        }
+        LightShape::Point { position }
+        | LightShape::Spot { position, .. }
+        | LightShape::Sphere { position, .. }
+        | LightShape::Ellipsoid { position, .. }
+        | LightShape::Disc { position, .. }
+        | LightShape::Rect { position, .. } => *position += by,
+    }
+    shape
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use umbrage_core::scenes;
+
+    #[test]
+    fn names_are_read_and_mistakes_named() {
+        for moving in Moving::ALL {
+            assert_eq!(moving.name().parse::<Moving>().unwrap(), moving);
+            assert_eq!(serde_json::to_value(moving).unwrap(), moving.name());
+        }
+        let wrong = "light".parse::<Moving>().unwrap_err().to_string();
+        assert!(wrong.contains("did you mean `lights`") && wrong.contains("casters, camera, all"), "{wrong}");
+    }
+
+    #[test]
+    fn paths_are_closed_small_and_never_stand_still() {
+        for entry in scenes::SCENES {
+            let scene = (entry.build)(0.05);
+            let motion = Motion::new(Moving::All, &scene);
+            for light in &scene.lights {
+                let place = |frame| moved(&light.shape, circle(frame, 1), motion.radius).center().truncate();
+                let off = place(7).distance(light.shape.center().truncate());
+                let small = if light.shape.center().w == 0.0 { 0.053 } else { 0.051 * motion.radius };
+                assert!(place(0) != place(1) && place(0) == place(PERIOD), "{}", entry.id);
+                assert!(off > 0.0 && off < small, "{}: {off}", entry.id);
+            }
+            assert!(motion.camera(0) != motion.camera(1) && motion.camera(0) == motion.camera(PERIOD));
+            assert!(!motion.sinking.is_empty(), "nothing moves in {}", entry.id);
+        }
+    }
+
+    #[test]
+    fn what_is_not_asked_to_move_stands() {
+        let scene = (scenes::SCENES[0].build)(0.05);
+        let motion = Motion::new(Moving::Lights, &scene);
+        assert_eq!(motion.camera(5), scene.camera);
+        assert!(motion.sinking.is_empty());
+    }
+}
