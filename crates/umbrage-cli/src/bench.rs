@@ -32,6 +32,9 @@ pub struct Bench {
     /// All lights in the same frame, each with a technique of its own, instead of one light at a time
     #[arg(long)]
     lights_together: bool,
+    /// Measure the wrong single-pass algorithm, too: one overlay for the shadows of all lights
+    #[arg(long, requires = "lights_together")]
+    overlay: bool,
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = args::size)]
     size: Size,
@@ -58,6 +61,7 @@ impl Bench {
             frames: self.frames,
             moving: self.moving,
             together: self.lights_together,
+            overlay: self.overlay,
             command: args::command_line(),
         };
         let report = plan.run(&gpu, &Bars::default())?;

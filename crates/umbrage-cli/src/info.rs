@@ -5,7 +5,7 @@ use clap::Args;
 use serde_json::{Value, json};
 use std::io::{Write, stdout};
 use umbrage_core::mesh_check::{MeshReport, check_scene};
-use umbrage_core::{Light, Scene, glam::DVec3};
+use umbrage_core::{Instance, Light, Scene, glam::DVec3};
 use umbrage_report::Source;
 
 /// Shows what a scene holds: triangles, lights, bounds, and faults of its meshes
@@ -32,6 +32,16 @@ impl Info {
         stdout().write_all(text.as_bytes())?;
         Ok(())
     }
+}
+
+/// What the loader had to say, and what techniques make of the scene.
+fn notes(source: &Source) -> Vec<String> {
+    let is_masked = |i: &Instance| i.casts && source.scene.materials[i.material].alpha_cutoff.is_some();
+    let cards = source.scene.instances.iter().filter(|i| is_masked(i)).count();
+    let whole = format!(
+        "{cards} instances cast through an alpha mask: maps cut their shadows out, `volume` casts their triangles whole"
+    );
+    source.notes.iter().cloned().chain((cards > 0).then_some(whole)).collect()
 }
 
 /// The faults that a mesh can have, as names for JSON and for people.
@@ -79,7 +89,7 @@ fn as_json(source: &Source, report: &MeshReport) -> String {
                     "fov_y_deg": scene.camera.fov_y_deg, "near": scene.camera.near },
         "lights": scene.lights.iter().enumerate().map(light).collect::<Vec<Value>>(),
         "mesh_check": mesh,
-        "notes": source.notes,
+        "notes": notes(source),
     });
     format!("{all:#}\n")
 }
@@ -116,6 +126,6 @@ fn as_text(source: &Source, report: &MeshReport) -> String {
         faults(report).iter().filter(|f| f.2 > 0).map(|(_, name, n)| format!("{n} {name}")).collect();
     let closed = if report.is_closed() { "closed" } else { "not closed" };
     text += &row("meshes", if found.is_empty() { closed.into() } else { format!("{closed}: {}", found.join(", ")) });
-    source.notes.iter().for_each(|note| text += &row("note", note.clone()));
+    notes(source).into_iter().for_each(|note| text += &row("note", note));
     text
 }

@@ -18,6 +18,7 @@ Examples:
   umbrage render atrium -o atrium.png
   umbrage render bunny.scene.toml --technique shadow-map --light 0 --aov visibility -o v.exr
   umbrage render contact --technique shadow-map --light-samples 256 -o soft.png
+  umbrage render atrium --technique volume --light 0 --aov overdraw -o overdraw.png
   umbrage render contact --technique ray-traced --samples 256 --aov visibility -o v.png
 
 Pictures: `color` is sRGB PNG. `visibility` is linear: 16-bit grey PNG, or float EXR (channel V); it needs \
@@ -46,6 +47,10 @@ pub struct Render {
     /// Average a hard technique over so many points of the light
     #[arg(long, value_name = "N")]
     light_samples: Option<u32>,
+    /// Shade all lights at once and darken by this share, 0 to 1, whatever is in any shadow: the wrong single-pass
+    /// algorithm, to compare with
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    overlay: Option<f32>,
     /// color, visibility, scored, depth, normal, or a view into the technique, such as map-0
     #[arg(long, value_name = "NAME", default_value = "color")]
     aov: String,
@@ -63,6 +68,11 @@ impl Render {
         Picture::check_name(&aov, &self.output)?;
         check_file(&self.output)?;
         let method = self.method()?;
+        if self.overlay.is_some() && (aov != Aov::Color || self.technique == RAY_TRACED) {
+            bail!(
+                "--overlay is a way of shading: it goes with `--aov color` and a technique that knows it, such as `volume`"
+            );
+        }
         let source = Source::open(&self.scene)?;
         let lights = source.lights(self.light)?;
         let of_one_light = matches!(aov, Aov::Visibility | Aov::Scored | Aov::Inside(_));
@@ -71,7 +81,8 @@ impl Render {
             bail!("{}: `{}` is of one light; say which with --light, 0 to {last}", source.asked, self.aov);
         }
         source.notes.iter().for_each(|note| eprintln!("note: {note}"));
-        let shot = Shot { source, lights, method, size: (self.size.width, self.size.height), aov };
+        let shot =
+            Shot { source, lights, method, size: (self.size.width, self.size.height), aov, overlay: self.overlay };
         let gpu = if shot.needs_gpu() { Some(self.adapter.gpu()?) } else { None };
         let picture = shot.take(gpu.as_ref(), &Bars::default())?;
         picture.save(&self.output)?;
@@ -94,4 +105,9 @@ impl Render {
         set.extend(self.light_samples.map(|n| (LIGHT_SAMPLES.into(), n.to_string())));
         Ok(Method::Technique(Choice::new(&self.technique, &set)?))
     }
+}
+
+fn share(text: &str) -> Result<f32, String> {
+    let share = text.parse().ok().filter(|s| (0.0..=1.0).contains(s));
+    share.ok_or_else(|| "write a number from 0 to 1, such as 0.5".into())
 }

@@ -33,6 +33,8 @@ pub struct Bench {
     pub moving: Moving,
     /// All lights of a scene in the same frame, each with a technique of its own, where it is otherwise one light at a time.
     pub together: bool,
+    /// Measures techniques that know it by the single-pass algorithm for all lights at once, too.
+    pub overlay: bool,
     /// The command line, for the record.
     pub command: Vec<String>,
 }
@@ -218,7 +220,7 @@ impl Bench {
             let passes: Result<Vec<_>, Error> = lights.iter().map(pass).collect();
             let renderer =
                 passes.and_then(|passes| Ok(Renderer::new(gpu, &source.scene, self.size.0, self.size.1, passes)?));
-            Runner { baseline, choice, renderer, lights: lights.len(), frames: Frames::default() }
+            Runner { baseline, choice, renderer, overlay: false, lights: lights.len(), frames: Frames::default() }
         };
         let mut sizes: Vec<u32> = self.choices.iter().map(map_size).collect();
         sizes.sort_unstable();
@@ -231,9 +233,17 @@ impl Bench {
             .choices
             .iter()
             .map(|choice| make(None, Some(choice), &|kind| choice.supports(kind).and_then(|()| choice.make(gpu))));
-        std::iter::once(floor).chain(bare).chain(techniques).collect()
+        let overlays = self.choices.iter().filter(|_| self.overlay).map(|choice| {
+            let runner = make(None, Some(choice), &|kind| choice.supports(kind).and_then(|()| choice.make(gpu)));
+            let set = |mut renderer: Renderer| Ok(renderer.set_overlay(Some(DARKNESS)).map(|()| renderer)?);
+            Runner { renderer: runner.renderer.and_then(set), overlay: true, ..runner }
+        });
+        std::iter::once(floor).chain(bare).chain(techniques).chain(overlays).collect()
     }
 }
+
+/// Of overlays; costs the same, whatever it is.
+const DARKNESS: f32 = 0.5;
 
 /// What the others are set against.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -249,6 +259,7 @@ struct Runner<'a> {
     baseline: Option<Baseline>,
     choice: Option<&'a Choice>,
     renderer: Result<Renderer, Error>,
+    overlay: bool,
     /// How many there are.
     lights: usize,
     frames: Frames,
@@ -287,7 +298,10 @@ impl Runner<'_> {
             Some(cost.as_ref()?.added_ms()? / other.as_ref()?.added_ms()?)
         };
         let (technique, settings) = match (self.baseline, self.choice) {
-            (_, Some(choice)) => (choice.info.id.to_string(), choice.changed().clone()),
+            (_, Some(choice)) => {
+                let overlay = self.overlay.then(|| ("overlay".to_string(), "on".to_string()));
+                (choice.info.id.to_string(), choice.changed().clone().into_iter().chain(overlay).collect())
+            }
             (Some(Baseline::BareMinimum(size)), _) => {
                 ("bare-minimum".into(), BTreeMap::from([("size".into(), size.to_string())]))
             }

@@ -58,8 +58,8 @@ impl FromStr for Moving {
     fn from_str(text: &str) -> Result<Self, Error> {
         Self::ALL.into_iter().find(|m| m.name() == text).ok_or_else(|| {
             let guess = umbrage::nearest(text, Self::ALL.into_iter().map(Self::name));
-            let guess = guess.map_or(String::new(), |name| format!("did you mean `{name}`? "));
-            Error::Name(format!("{guess}there are {}", Self::ALL.map(Self::name).join(", ")))
+            let guess = guess.map_or(String::new(), |name| format!("; did you mean `{name}`?"));
+            Error::Name(format!("write one of {}{guess}", Self::ALL.map(Self::name).join(", ")))
         })
     }
 }
@@ -146,6 +146,7 @@ fn moved(shape: &LightShape, [x, z]: [f64; 2], scene_radius: f64) -> LightShape 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use umbrage::LightPass;
     use umbrage_core::scenes;
 
     #[test]
@@ -172,6 +173,26 @@ mod tests {
             }
             assert!(motion.camera(0) != motion.camera(1) && motion.camera(0) == motion.camera(PERIOD));
             assert!(!motion.sinking.is_empty(), "nothing moves in {}", entry.id);
+        }
+    }
+
+    /// Needs a graphics adapter.
+    #[test]
+    fn pictures_change_on_the_way_and_are_the_same_after_a_round() {
+        let gpu = Gpu::request(None).unwrap();
+        let scene = (scenes::find("primitives").unwrap().build)(0.1);
+        for moving in Moving::ALL {
+            let motion = Motion::new(moving, &scene);
+            let info = umbrage::find("shadow-map").unwrap();
+            let technique = info.make(&gpu, &info.settings(&[]).unwrap()).unwrap();
+            let mut renderer = Renderer::new(&gpu, &scene, 96, 72, vec![LightPass { light: 0, technique }]).unwrap();
+            let [start, way, end] = [0, PERIOD / 2, PERIOD].map(|frame| {
+                motion.apply(&gpu, &mut renderer, &[0], frame);
+                renderer.frame(&motion.camera(frame)).unwrap();
+                renderer.visibility(0).unwrap().data
+            });
+            assert_eq!(start == way, moving == Moving::None, "moving: {}", moving.name());
+            assert!(start == end, "moving {} ends elsewhere", moving.name());
         }
     }
 

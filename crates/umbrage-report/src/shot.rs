@@ -65,6 +65,8 @@ pub struct Shot {
     pub size: (u32, u32),
     /// What it shows.
     pub aov: Aov,
+    /// Shades by the single-pass algorithm: this share of the light is missing in any light's shadow.
+    pub overlay: Option<f32>,
 }
 
 /// A picture taken.
@@ -169,6 +171,9 @@ impl Shot {
             LightPass { light, technique }
         });
         let mut renderer = Renderer::new(gpu, scene, self.size.0, self.size.1, passes.collect())?;
+        if self.overlay.is_some() {
+            renderer.set_overlay(self.overlay)?;
+        }
         renderer.frame(&scene.camera)?;
         Ok(match &self.aov {
             Aov::Color => Picture::Color(renderer.color()?),
@@ -215,6 +220,8 @@ impl Shot {
     }
 }
 
+const EIGHT_BITS: &str = "this picture has 8 bits a channel: end its name in .png";
+
 fn wrong_name(path: &Path, remedy: &str) -> Error {
     Error::Name(format!("{}: can't be written in this format; {remedy}", path.display()))
 }
@@ -235,9 +242,7 @@ impl Picture {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match (extension.as_str(), aov) {
             ("png", _) => Ok(()),
-            ("exr", Aov::Color | Aov::Scored) => {
-                Err(wrong_name(path, "this picture has 8 bits a channel: end its name in .png"))
-            }
+            ("exr", Aov::Color | Aov::Scored) => Err(wrong_name(path, EIGHT_BITS)),
             ("exr", _) => Ok(()),
             _ => Err(wrong_name(path, "end the name in .png or .exr")),
         }
@@ -253,6 +258,7 @@ impl Picture {
     pub fn save(&self, path: &Path) -> Result<(), Error> {
         let is_exr = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"));
         Ok(match self {
+            Self::Color(_) if is_exr => return Err(wrong_name(path, EIGHT_BITS)),
             Self::Color(image) => pictures::save_png(path, image),
             Self::Mask(image) => pictures::save_png(path, &image.map(|&m| if m { 255u8 } else { 0 })),
             Self::Share(image) if is_exr => pictures::save_exr(path, image, "V"),
@@ -305,6 +311,7 @@ mod tests {
             method: Method::RayTraced { samples: 4 },
             size: (32, 24),
             aov: Aov::Visibility,
+            overlay: None,
         };
         let Picture::Share(picture) = shot.take(None, &Silent).unwrap() else { panic!("no picture of shares") };
         assert_eq!(picture.size(), (32, 24));

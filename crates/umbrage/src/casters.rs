@@ -14,10 +14,12 @@ mod draw_list;
 mod edges;
 mod eye_tree;
 mod material;
+mod sides;
 pub(crate) use draw_list::{DrawList, Light, Which};
 pub(crate) use edges::{EDGES_WGSL, Edge, Edges, MeshEdges, STORAGE};
 pub(crate) use eye_tree::Sight;
 pub(crate) use material::{MATERIAL_LAYOUT, MATERIALS_WGSL, texture_layout};
+pub(crate) use sides::Sides;
 
 /// Declares `Instance` and how a vertex gets into the world.
 pub(crate) const INSTANCES_WGSL: &str = include_str!("wgsl/instances.wgsl");
@@ -89,7 +91,7 @@ pub(crate) struct Placed {
     pub number: u32,
     pub mesh: u32,
     pub world_from_mesh: DAffine3,
-    pub mesh_from_world: DAffine3,
+    pub sides: Option<Sides>,
     pub masked: bool,
     mesh_bounds: Bounds,
     pub bounds: Bounds,
@@ -154,7 +156,7 @@ impl Casters {
                 number: i as u32,
                 mesh: mesh as u32,
                 world_from_mesh: instance.world_from_mesh,
-                mesh_from_world: instance.world_from_mesh.inverse(),
+                sides: Sides::of(&instance.world_from_mesh),
                 masked,
                 mesh_bounds: bounds,
                 bounds: bounds.transformed(&instance.world_from_mesh),
@@ -224,7 +226,7 @@ impl Casters {
         let Some(&place) = self.place_of.get(instance) else { return };
         let placed = &mut self.placed[place as usize];
         placed.world_from_mesh = *world_from_mesh;
-        placed.mesh_from_world = world_from_mesh.inverse();
+        placed.sides = Sides::of(world_from_mesh);
         placed.bounds = placed.mesh_bounds.transformed(world_from_mesh);
         if placed.casts {
             self.tree.update(place, placed.bounds);

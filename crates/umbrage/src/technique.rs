@@ -36,7 +36,7 @@ pub trait Technique: Send {
         _views: &[View<'_>],
         _visibility: &VisibilityTarget,
     ) -> Result<(), Error> {
-        let (technique, what) = ("this technique".into(), "all lights at once; `volume` is".into());
+        let (technique, what) = ("this technique".into(), "the overlay of all lights at once; choose `volume`".into());
         Err(Error::Unsupported { technique, what })
     }
 
@@ -69,7 +69,7 @@ pub trait Technique: Send {
 pub struct Stats {
     /// Draw calls.
     pub draws: u32,
-    /// Triangles sent to the GPU.
+    /// Triangles sent to the GPU; where the GPU chooses itself what to draw, those that it chooses from.
     pub triangles: u64,
     /// Casters drawn, counted once for every view of the light.
     pub casters_drawn: u32,

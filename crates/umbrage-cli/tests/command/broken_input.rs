@@ -63,6 +63,11 @@ fn values_out_of_range_name_the_range() {
     refused(&[], "compare contact --samples 0 -o out", &["--samples", "1.."]);
     refused(&[], "render contact --aov visibility -o a.png", &["--light"]);
     refused(&[], "render contact --technique none --light-samples 4 -o a.png", &["not a hard technique"]);
+    refused(&[], "render contact --technique volume --overlay 2 -o a.png", &["--overlay", "from 0 to 1"]);
+    refused(&[], "render contact --technique pcf --overlay 0.5 --size 8x8 -o a.png", &["overlay", "`volume`"]);
+    refused(&[], "render contact --light 0 --aov depth --overlay 0.5 -o a.png", &["--overlay", "--aov color"]);
+    refused(&[], "render contact --light 0 --technique volume --aov count --size 8x8 -o a.exr", &["a.exr", ".png"]);
+    refused(&[], "bench contact --overlay", &["--lights-together"]);
     refused(&[], "bench contact --moving lihgts", &["--moving", "lihgts", "did you mean `lights`", "none, lights"]);
 }
 

@@ -109,6 +109,37 @@ fn bench_moves_lights_and_casters_and_puts_lights_together() {
     assert_eq!(casters(&together[0]), lights.iter().map(casters).sum::<u64>());
 }
 
+#[test]
+fn the_overlay_of_all_lights_is_another_picture_and_is_measured_beside_the_right_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let render = |more: &[&str], name: &str| {
+        let arguments = ["render", "contact", "--technique", "volume", "--size", "96x72", "-o", name];
+        output(folder.path(), &[&arguments[..], more].concat());
+        fs::read(folder.path().join(name)).expect("a picture")
+    };
+    assert_ne!(render(&[], "right.png"), render(&["--overlay", "0.5"], "overlay.png"));
+    let arguments = "bench contact --techniques volume,none --lights-together --overlay --frames 2 --size 96x72 --json";
+    let json = output(Path::new("."), &arguments.split(' ').collect::<Vec<_>>());
+    let report: Value = serde_json::from_str(&json).expect("JSON");
+    let results = report["scenes"][0]["lights"][0]["results"].as_array().expect("results");
+    let overlay = |technique: &str| {
+        let is_it = |r: &&Value| r["technique"] == technique && r["settings"]["overlay"] == "on";
+        results.iter().find(is_it).expect("a result")["status"].clone()
+    };
+    assert_eq!((overlay("volume"), overlay("none")), ("ok".into(), "unsupported".into()));
+}
+
+#[test]
+fn views_into_a_technique_are_pictures() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for view in ["volumes", "count", "overdraw", "silhouettes", "culling"] {
+        let name = format!("{view}.png");
+        let arguments = ["render", "contact", "--technique", "volume", "--light", "0", "--size", "96x72", "-o", &name];
+        output(folder.path(), &[&arguments[..], &["--aov", view]].concat());
+        assert!(folder.path().join(&name).is_file(), "{name}");
+    }
+}
+
 /// The scene of the stored reference below: a box over a plane.
 const SCENE: &str = "\
 [camera]

@@ -31,6 +31,8 @@ pub(crate) struct Edges {
     pub find: wgpu::BindGroup,
     /// As `wgsl/extrude.wgsl` declares it, for drawing.
     pub draw: wgpu::BindGroup,
+    /// Most shadows that one point can be in, whichever casters are drawn.
+    pub layers: u32,
     meshes: Vec<MeshEdges>,
     bytes: u64,
 }
@@ -46,6 +48,11 @@ pub(crate) struct MeshEdges {
 }
 
 impl MeshEdges {
+    /// Most shadows of the mesh that one point can be in: fronts and backs of a closed one, where both count.
+    fn layers(&self) -> u32 {
+        self.adjacency.layers.saturating_mul(if self.adjacency.is_closed { 2 } else { 1 })
+    }
+
     /// For counts that start at the eye; made when first asked for.
     pub fn eye_tree(&self, mesh: &Mesh) -> &EyeTree {
         self.eye_tree.get_or_init(|| EyeTree::new(mesh, &self.adjacency))
@@ -73,7 +80,8 @@ impl Edges {
             meshes.push(MeshEdges { adjacency, first_edge, first_triangle, triangle_count, eye_tree: OnceLock::new() });
         }
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
-        let sizes = [edges.len() as u64 * 16, planes.len() as u64 * 16, casters.positions.size(), casters.indices.size()];
+        let sizes =
+            [edges.len() as u64 * 16, planes.len() as u64 * 16, casters.positions.size(), casters.indices.size()];
         if let Some(&size) = sizes.iter().find(|size| **size > limit) {
             return Err(Error::Size { what: "a buffer of edges, planes or vertices".into(), size, limit });
         }
@@ -81,7 +89,10 @@ impl Edges {
         let planes = gpu.buffer("planes", &planes, wgpu::BufferUsages::STORAGE);
         let of_edges = [edges.as_entire_binding(), planes.as_entire_binding()];
         let of_vertices = [&casters.positions, &casters.indices, &casters.instances].map(|b| b.as_entire_binding());
+        let placed = casters.placed.iter().filter(|p| p.casts);
+        let layers = placed.map(|p| meshes[p.mesh as usize].layers()).fold(0, u32::saturating_add);
         Ok(Self {
+            layers,
             find: bind(gpu, "edges", &Self::find_layout(gpu), &of_edges),
             draw: bind(gpu, "edges", &Self::draw_layout(gpu), &[&of_edges[..], &of_vertices].concat()),
             meshes,

@@ -5,10 +5,10 @@ use obvhs::bvh2::{Bvh2, builder::build_bvh2};
 use obvhs::ray::Ray;
 use obvhs::{Boundable, BvhBuildParams};
 use std::time::Duration;
+use umbrage_core::Mesh;
 use umbrage_core::adjacency::Adjacency;
 use umbrage_core::glam::{DVec2, DVec3, DVec4, Vec3A};
 use umbrage_core::silhouette::{Rule, facing};
-use umbrage_core::Mesh;
 
 /// A hierarchy over a mesh's triangles, numbered as in its [`Adjacency`].
 pub(crate) struct EyeTree {
@@ -29,8 +29,11 @@ pub(crate) struct Sight {
 impl EyeTree {
     pub fn new(mesh: &Mesh, adjacency: &Adjacency) -> Self {
         let margin = 1e-2 * mesh.bounds().largest_coordinate();
-        let boxes: Vec<Padded> =
-            adjacency.triangles.iter().map(|&t| Padded::around(mesh.corners(t).map(|p| p.as_dvec3()), margin)).collect();
+        let boxes: Vec<Padded> = adjacency
+            .triangles
+            .iter()
+            .map(|&t| Padded::around(mesh.corners(t).map(|p| p.as_dvec3()), margin))
+            .collect();
         if boxes.is_empty() {
             return Self { tree: Bvh2::default(), margin };
         }
@@ -115,7 +118,8 @@ impl Line {
 /// Distance of the origin to the segment.
 fn distance_to_segment(a: DVec2, b: DVec2) -> f64 {
     let along = b - a;
-    let share = if along.length_squared() > 0.0 { (-a.dot(along) / along.length_squared()).clamp(0.0, 1.0) } else { 0.0 };
+    let share =
+        if along.length_squared() > 0.0 { (-a.dot(along) / along.length_squared()).clamp(0.0, 1.0) } else { 0.0 };
     (a + along * share).length()
 }
 

@@ -54,10 +54,8 @@ impl GBuffer {
     pub(super) fn new(gpu: &Gpu, width: u32, height: u32) -> Self {
         let texture = |label, format| target_texture(gpu, label, (width, height), 1, format);
         let depth = texture("depth", depth_format(gpu));
-        let depth_view = depth.create_view(&wgpu::TextureViewDescriptor {
-            aspect: wgpu::TextureAspect::DepthOnly,
-            ..Default::default()
-        });
+        let depth_view = depth
+            .create_view(&wgpu::TextureViewDescriptor { aspect: wgpu::TextureAspect::DepthOnly, ..Default::default() });
         let normal = texture("geometric normal", PACKED);
         let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
         let view_layout = layout(gpu, "camera", wgpu::ShaderStages::VERTEX_FRAGMENT, &[UNIFORM]);

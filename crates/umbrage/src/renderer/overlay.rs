@@ -8,8 +8,7 @@ use crate::{error::Error, gpu::Gpu, passes::Passes, visibility::VisibilityTarget
 use umbrage_core::Light;
 
 /// The shader.
-pub const SHADER: Shader =
-    Shader { name: "overlay", parts: &[FULLSCREEN, include_str!("overlay.wgsl")], layouts: &[] };
+pub const SHADER: Shader = Shader { name: "overlay", parts: &[FULLSCREEN, include_str!("overlay.wgsl")], layouts: &[] };
 
 pub(super) struct Overlay {
     /// 0 where a point is in any shadow.
@@ -24,7 +23,8 @@ impl Overlay {
         let visibility = VisibilityTarget::new(gpu, width, height)?;
         let bindings = [fullscreen::texture(FLOATS), UNIFORM];
         let group = layout(gpu, "overlay", wgpu::ShaderStages::FRAGMENT, &bindings);
-        let darkness = gpu.buffer("darkness", &[[darkness.clamp(0.0, 1.0), 0.0, 0.0, 0.0]], wgpu::BufferUsages::UNIFORM);
+        let darkness =
+            gpu.buffer("darkness", &[[darkness.clamp(0.0, 1.0), 0.0, 0.0, 0.0]], wgpu::BufferUsages::UNIFORM);
         let resources = [wgpu::BindingResource::TextureView(&visibility.view), darkness.as_entire_binding()];
         let bind_group = bind(gpu, "overlay", &group, &resources);
         let over = wgpu::BlendComponent {
@@ -43,9 +43,15 @@ impl Overlay {
             ..wgpu::TextureFormat::Rgba16Float.into()
         };
         let module = SHADER.module(gpu);
-        let pipeline =
-            Fullscreen { label: "overlay", module: &module, entry: "darken", groups: &[&group], target, constants: &[] }
-                .pipeline(gpu);
+        let pipeline = Fullscreen {
+            label: "overlay",
+            module: &module,
+            entry: "darken",
+            groups: &[&group],
+            target,
+            constants: &[],
+        }
+        .pipeline(gpu);
         Ok(Self { visibility, pipeline, bind_group })
     }
 

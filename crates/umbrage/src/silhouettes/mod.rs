@@ -28,8 +28,7 @@ pub(crate) const FIND_SHADER: Shader = Shader {
 };
 
 /// Host structs that [`EXTRUDE_PARTS`] declare.
-pub(crate) const EXTRUDE_LAYOUTS: &[HostLayout] =
-    &[Edge::LAYOUT, Caster::LAYOUT, Instance::LAYOUT, Extrusion::LAYOUT];
+pub(crate) const EXTRUDE_LAYOUTS: &[HostLayout] = &[Edge::LAYOUT, Caster::LAYOUT, Instance::LAYOUT, Extrusion::LAYOUT];
 
 shader_struct! {
     /// A caster under one light, see `wgsl/edges.wgsl`.
@@ -56,6 +55,8 @@ shader_struct! {
     pub(crate) struct Extrusion {
         clip_from_world: [[f32; 4]; 4],
         light: [f32; 4],
+        away: [f32; 2],
+        pad: [f32; 2],
     }
 }
 
@@ -142,7 +143,8 @@ impl Shape {
 /// For 64 sides of four corners two triangles each; then one triangle each, since both shadows are one point. For 64 caps of six
 /// corners both triangles each; then the light caps alone.
 fn indices() -> Vec<u16> {
-    let each = |stride: u16, corners: &'static [u16]| (0..64).flat_map(move |i| corners.iter().map(move |c| i * stride + c));
+    let each =
+        |stride: u16, corners: &'static [u16]| (0..64).flat_map(move |i| corners.iter().map(move |c| i * stride + c));
     let sides = each(4, &[0, 1, 2, 0, 2, 3]).chain(each(4, &[0, 1, 2]));
     sides.chain(each(6, &[0, 1, 2, 3, 4, 5])).chain(each(6, &[0, 1, 2])).collect()
 }
@@ -214,13 +216,8 @@ impl Silhouettes {
         if self.extrude == Extrude::Vertex { ["any_side", "any_cap"] } else { ["listed_side", "listed_cap"] }
     }
 
-    /// What was prepared.
-    pub fn shape(&self) -> Shape {
-        self.shape
-    }
-
-    /// Describes the casters of a frame: first all that are counted from the eye, then the others. `light`: its centre,
-    /// homogeneous.
+    /// Describes the casters of a frame: first all that are counted from the eye, then the others. With the camera's
+    /// matrix goes whether near is 1. `light`: its centre, homogeneous.
     ///
     /// # Errors
     /// [`Error::Size`] where there are too many edges.
@@ -228,7 +225,7 @@ impl Silhouettes {
         &mut self,
         gpu: &Gpu,
         casters: &Casters,
-        clip_from_world: &DMat4,
+        (clip_from_world, reversed): (&DMat4, bool),
         light: DVec4,
         throws: &[Throw],
         style: Style,
@@ -240,6 +237,9 @@ impl Silhouettes {
         self.extrusion = Extrusion {
             clip_from_world: clip_from_origin.as_mat4().to_cols_array_2d(),
             light: (light.truncate() - origin * light.w).extend(light.w).as_vec4().to_array(),
+            // A few roundings of a depth that is reversed, and so relative, or of one that is not.
+            away: if reversed { [-4e-7, 0.0] } else { [0.0, 2.4e-7] },
+            ..Extrusion::default()
         };
         self.work.clear();
         for throw in throws {
@@ -314,22 +314,22 @@ impl Silhouettes {
 }
 
 /// A caster as the shaders see it; chunks are filled in later.
-fn caster(casters: &Casters, edges: &Edges, light: DVec4, throw: &Throw) -> Caster {
+fn caster(casters: &Casters, edges: &Edges, light: DVec4, throw: &Throw) -> Option<Caster> {
     let placed = &casters.placed()[throw.place as usize];
     let part = &casters.meshes()[placed.mesh as usize];
     let mesh = edges.of_mesh(placed.mesh);
-    let is_mirrored = placed.world_from_mesh.matrix3.determinant() < 0.0;
+    let sides = placed.sides?;
     let flags = [
         (throw.rule == Rule::Away, AWAY),
-        (is_mirrored, MIRRORED),
+        (sides.is_mirrored, MIRRORED),
         (throw.z_fail, Z_FAIL),
         (throw.light_cap, LIGHT_CAP),
         (throw.dark_cap, DARK_CAP),
     ];
     let end = throw.end.truncate();
-    Caster {
+    Some(Caster {
         end: end.extend(throw.end.w - end.dot(casters.origin())).as_vec4().to_array(),
-        light: light_in_mesh(light, &placed.mesh_from_world, mesh.adjacency.center).to_array(),
+        light: light_in_mesh(light, &sides.mesh_from_world, mesh.adjacency.center).to_array(),
         first_edge: mesh.first_edge,
         edge_count: mesh.adjacency.edges.len() as u32,
         first_triangle: mesh.first_triangle,
@@ -340,5 +340,5 @@ fn caster(casters: &Casters, edges: &Edges, light: DVec4, throw: &Throw) -> Cast
         flags: flags.into_iter().filter(|(on, _)| *on).map(|(_, bit)| bit).sum(),
         reach: throw.reach,
         ..Caster::default()
-    }
+    })
 }

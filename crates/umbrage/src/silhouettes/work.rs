@@ -1,6 +1,6 @@
 //! What a frame's casters come to: their chunks, room for what may be found, and the CPU's own search.
 
-use super::{CHUNK, Caster, Extrusion, LIGHT_CAP, DARK_CAP, Part, Shape, Throw, Z_FAIL, caster, find};
+use super::{CHUNK, Caster, DARK_CAP, Extrusion, LIGHT_CAP, Part, Shape, Throw, Z_FAIL, caster, find};
 use crate::casters::{Casters, Edges};
 use crate::fullscreen::bind;
 use crate::{error::Error, gpu::Gpu};
@@ -49,7 +49,7 @@ impl Work {
     }
 
     pub fn add(&mut self, casters: &Casters, edges: &Edges, light: DVec4, throw: &Throw, weighted: bool) {
-        let mut new = caster(casters, edges, light, throw);
+        let Some(mut new) = caster(casters, edges, light, throw) else { return };
         new.edge_chunk = self.edge_chunks;
         let chunks = new.edge_count.div_ceil(CHUNK);
         self.chunks.extend(std::iter::repeat_n(self.casters.len() as u32, chunks as usize));
@@ -208,7 +208,12 @@ impl Buffers {
         let room = |bytes: u64| (bytes + bytes / 2).next_multiple_of(256).clamp(256, limit);
         let buffer = |label, size, usage| {
             let usage = usage | Usage::COPY_DST;
-            gpu.device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
         };
         let casters = buffer("casters of a light", room(needs.casters), Usage::STORAGE);
         let chunks = buffer("chunks", room(needs.chunks), Usage::STORAGE);

@@ -7,6 +7,9 @@ struct Extrusion {
     clip_from_world: mat4x4f,
     // Relative to the same origin as instances; w = 0: the direction to it.
     light: vec4f,
+    // How far volumes are moved away from the eye: a share of the depth, and an amount.
+    away: vec2f,
+    pad: vec2f,
 }
 
 struct Corner {
@@ -53,8 +56,10 @@ fn dark_corner(caster: u32, p: vec3f) -> vec4f {
     return vec4f(extrusion.light.xyz + away * (max(reach, length(away)) / length(away)), 1.0);
 }
 
+// Caps, and sides at their edge, coincide with the surface that throws them, which has to be in front whatever was rounded.
 fn on_screen(p: vec4f, times: f32) -> Corner {
-    return Corner(extrusion.clip_from_world * p, times);
+    let at = extrusion.clip_from_world * p;
+    return Corner(vec4f(at.xy, at.z + extrusion.away.x * at.z + extrusion.away.y * at.w, at.w), times);
 }
 
 // Corner 0…3 of a quad: end, start, start's shadow, end's shadow, counter-clockwise seen from outside. With parallel light both

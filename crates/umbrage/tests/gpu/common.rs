@@ -51,20 +51,18 @@ pub fn against_truth(
     let geometry = tracer.geometry(&scene.camera, size.0, size.1);
     let options = Options { samples, ..Options::default() };
     let truth = tracer.visibility(&geometry, &scene.lights[light], &scene.textures, &options, &|_, _| ());
-    let mask = mask(&truth, &geometry);
+    let mask = mask(&truth, &geometry, 60.0);
     let views = renderer.technique(0).unwrap().light_views();
     let reach = map_reach(views, &scene.camera, &geometry.depth, &geometry.normal);
     let reference = &truth.visibility;
     score(&Comparison { produced: &produced, reference, mask: &mask, hard: None, reach: Some(&reach) }).unwrap()
 }
 
-/// The pixels to compare: those that are scored, not far away and not beside the edge of a surface.
-pub fn mask(truth: &Truth, geometry: &Geometry) -> Image<bool> {
+/// The pixels to compare: those that are scored, not beside the edge of a surface and not `far` metres away.
+pub fn mask(truth: &Truth, geometry: &Geometry, far: f32) -> Image<bool> {
     let beside_edges = discontinuities(&geometry.depth, &geometry.model);
     let (width, height) = geometry.depth.size();
-    Image::from_fn(width, height, |x, y| {
-        truth.scored[(x, y)] && !beside_edges[(x, y)] && geometry.depth[(x, y)] < 60.0
-    })
+    Image::from_fn(width, height, |x, y| truth.scored[(x, y)] && !beside_edges[(x, y)] && geometry.depth[(x, y)] < far)
 }
 
 /// The folder of shared data, where there is one.

@@ -25,7 +25,20 @@ const GOLDEN: &[Row] = &[
     ("contact", 1.0, 0, "shadow-map", "size=2048", 6.9, 99.95),
     ("overlap", 1.0, 0, "shadow-map", "size=2048", 4.7, 99.95),
     ("duelling-frusta", 1.0, 0, "shadow-map", "size=2048", 101.0, 99.95),
+    // Exact but for pixels that rounding decides: two of them. Terrain is left out, its leaves throw whole quads.
+    ("primitives", 1.0, 0, "volume", "", 0.3, 100.0),
+    ("primitives", 1.0, 0, "volume", "count=z-fail", 0.3, 100.0),
+    ("atrium", 0.3, 0, "volume", "", 0.3, 100.0),
+    ("city", 1.0, 0, "volume", "", 0.3, 100.0),
+    ("lantern", 1.0, 0, "volume", "", 0.6, 100.0),
+    ("picket-fence", 1.0, 0, "volume", "", 0.3, 100.0),
+    ("contact", 1.0, 0, "volume", "", 0.3, 100.0),
+    ("overlap", 1.0, 0, "volume", "", 0.3, 100.0),
+    ("duelling-frusta", 1.0, 0, "volume", "", 0.3, 100.0),
 ];
+
+/// So few pixels more or less do not make an error another one: what is stated as next to nothing may be nothing.
+const PIXELS: f64 = 3.0;
 
 #[test]
 fn errors_are_as_stated() {
@@ -40,7 +53,7 @@ fn errors_are_as_stated() {
         println!("{row}");
         if got > mae || inside < interior || s.not_finite > 0 {
             wrong.push(format!("worse: {row}"));
-        } else if got < 0.5 * mae {
+        } else if got + PIXELS * 1e4 / s.scored_pixels as f64 <= 0.5 * mae {
             wrong.push(format!("much better, state it: {row}"));
         }
     }

@@ -121,7 +121,7 @@ fn lights_in_casters_and_far_away_are_no_trouble() {
     let center = DVec3::new(0.0, 1.0, 0.0);
     for (position, floor) in [(center, 0.0), (DVec3::new(0.0, 1e6, 0.0), 1.0), (DVec3::new(0.0, -1e6, 0.0), 0.0)] {
         let scene = box_scene(LightShape::Point { position });
-        for id in ["shadow-map", "pcf"] {
+        for id in ["shadow-map", "pcf", "volume"] {
             let seen = visibility(&mut renderer(&gpu, &scene, 0, id, "", (160, 120)), &scene);
             assert_eq!(seen[(80, 110)], floor, "{id} {position}");
         }
@@ -172,9 +172,11 @@ fn vertices_that_are_not_finite_do_no_harm() {
     broken.positions[9].y = f32::INFINITY;
     let mesh = scene.add_mesh(broken);
     scene.place(mesh, 0, DAffine3::from_translation(DVec3::new(3.0, 1.0, 0.0)));
-    let seen = visibility(&mut renderer(&gpu, &scene, 0, "shadow-map", "", (160, 120)), &scene);
-    assert!(seen.data.iter().all(|v| v.is_finite()));
-    assert!(seen.data.contains(&0.0) && seen.data.contains(&1.0));
+    for id in ["shadow-map", "volume"] {
+        let seen = visibility(&mut renderer(&gpu, &scene, 0, id, "", (160, 120)), &scene);
+        assert!(seen.data.iter().all(|v| v.is_finite()), "{id}");
+        assert!(seen.data.contains(&0.0) && seen.data.contains(&1.0), "{id}");
+    }
 }
 
 #[test]
@@ -193,10 +195,12 @@ fn ten_thousand_kilometres_away_looks_the_same() {
             other => panic!("the scene has a light of another kind: {other:?}"),
         }
     }
-    let of = |scene: &Scene| visibility(&mut renderer(&gpu, scene, 0, "shadow-map", "", (320, 240)), scene);
-    let (a, b) = (of(&here), of(&far));
-    let mae = a.data.iter().zip(&b.data).map(|(a, b)| f64::from((a - b).abs())).sum::<f64>() / a.data.len() as f64;
-    assert!(mae < 2e-4, "{mae}");
+    for id in ["shadow-map", "volume"] {
+        let of = |scene: &Scene| visibility(&mut renderer(&gpu, scene, 0, id, "", (320, 240)), scene);
+        let (a, b) = (of(&here), of(&far));
+        let mae = a.data.iter().zip(&b.data).map(|(a, b)| f64::from((a - b).abs())).sum::<f64>() / a.data.len() as f64;
+        assert!(mae < 2e-4, "{id}: {mae}");
+    }
 }
 
 #[test]
@@ -204,19 +208,22 @@ fn flags_are_honoured() {
     let gpu = gpu();
     let mut scene = box_scene(LightShape::Directional { direction: DVec3::NEG_Y, angle_deg: 0.0 });
     scene.camera.eye = DVec3::new(0.0, 1.0, 9.0);
-    let dark = |scene: &Scene| {
-        let mut renderer = renderer(&gpu, scene, 0, "shadow-map", "", (160, 120));
+    let dark = |scene: &Scene, id: &str| {
+        let mut renderer = renderer(&gpu, scene, 0, id, "", (160, 120));
         renderer.frame(&scene.camera).unwrap();
         let picture = renderer.color().unwrap();
         // The middle of the floor, below the box.
         picture[(80, 60)][0] < 60
     };
-    assert!(dark(&scene));
-    scene.instances[0].receives = false;
-    assert!(!dark(&scene), "no shadow falls on a floor that does not receive");
-    scene.instances[0].receives = true;
-    scene.instances[1].casts = false;
-    assert!(!dark(&scene), "a box that does not cast throws no shadow");
+    let mut blind = scene.clone();
+    blind.instances[0].receives = false;
+    let mut through = scene.clone();
+    through.instances[1].casts = false;
+    for id in ["shadow-map", "volume"] {
+        assert!(dark(&scene, id), "{id}");
+        assert!(!dark(&blind, id), "{id}: no shadow falls on a floor that does not receive");
+        assert!(!dark(&through, id), "{id}: a box that does not cast throws no shadow");
+    }
 }
 
 #[test]

@@ -9,18 +9,23 @@ use umbrage_reference::{Options, Tracer};
 
 fn scores(mut renderer: Renderer, scene: &Scene, stored: &StoredReference, hard: Option<&Image<f32>>) -> Scores {
     let produced = visibility(&mut renderer, scene);
-    let edges = discontinuities(&stored.depth, &stored.model.map(|m| i32::from(*m)));
-    let (width, height) = produced.size();
-    let mask = Image::from_fn(width, height, |x, y| stored.mask[(x, y)] && !edges[(x, y)]);
+    let mask = mask(stored);
     let views = renderer.technique(0).unwrap().light_views();
     let reach = map_reach(views, &scene.camera, &stored.depth, &stored.normal.map(|n| (*n).into()));
     let reference = &stored.visibility;
     score(&Comparison { produced: &produced, reference, mask: &mask, hard, reach: Some(&reach) }).unwrap()
 }
 
+/// The pixels that are compared.
+pub fn mask(stored: &StoredReference) -> Image<bool> {
+    let edges = discontinuities(&stored.depth, &stored.model.map(|m| i32::from(*m)));
+    let (width, height) = size(stored);
+    Image::from_fn(width, height, |x, y| stored.mask[(x, y)] && !edges[(x, y)])
+}
+
 /// Scene and light number of every stored picture for which `keep`, with the scene itself; none, and a line that says so, where
 /// there are no shared pictures.
-fn stored(test: &str, keep: impl Fn(&Scene, usize) -> bool) -> Vec<(String, usize, Scene, StoredReference)> {
+pub fn stored(test: &str, keep: impl Fn(&Scene, usize) -> bool) -> Vec<(String, usize, Scene, StoredReference)> {
     let Some(folder) = shared().map(|s| s.join("references")) else {
         println!("{test} skipped: no shared reference pictures (set UMBRAGE_SHARED)");
         return Vec::new();
@@ -39,7 +44,7 @@ fn stored(test: &str, keep: impl Fn(&Scene, usize) -> bool) -> Vec<(String, usiz
     found
 }
 
-fn size(stored: &StoredReference) -> (u32, u32) {
+pub fn size(stored: &StoredReference) -> (u32, u32) {
     stored.visibility.size()
 }
 

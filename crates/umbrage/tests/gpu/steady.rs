@@ -4,7 +4,7 @@ use crate::common::{gpu, pairs, scene};
 use umbrage::{LightPass, Renderer, find, light_samples, techniques};
 
 /// Objects alive on the device. Upload memory goes round in a ring that is full after a few frames.
-fn alive(gpu: &umbrage::Gpu) -> Vec<(&'static str, isize)> {
+pub fn alive(gpu: &umbrage::Gpu) -> Vec<(&'static str, isize)> {
     let hal = gpu.device.get_internal_counters().hal;
     vec![
         ("buffers", hal.buffers.read()),

@@ -1,30 +1,15 @@
 //! Where shadows are counted: a stencil buffer or a float texture, and the depth that volumes are compared with.
 
-use super::DEPTH_SHADER;
+use super::depth::{DepthBounds, DepthCopy, Projection};
 use super::options::CounterKind;
 use super::pipelines::TargetKey;
-use crate::depth_maps::Eye;
-use crate::fullscreen::{UNIFORM, bind, layout, target_texture};
-use crate::shader::shader_struct;
+use crate::fullscreen::{bind, target_texture};
 use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View};
-
-shader_struct! {
-    /// See `depth.wgsl`.
-    pub(crate) struct DepthBounds {
-        eye: Eye,
-        light: [f32; 3],
-        range_squared: f32,
-        nearest: f32,
-        pad_a: f32,
-        pad_b: f32,
-        pad_c: f32,
-    }
-}
 
 /// Targets of one size, and the pass that copies depth where it has to be copied.
 pub(super) struct Counter {
     targets: Option<Targets>,
-    copy: Option<Copy>,
+    copy: Option<DepthCopy>,
     pub key: TargetKey,
     bounds: Option<DepthBounds>,
 }
@@ -38,15 +23,6 @@ struct Targets {
     counts: Option<wgpu::TextureView>,
     read_counts: Option<wgpu::BindGroup>,
     bytes: u64,
-}
-
-/// What copying depth takes.
-struct Copy {
-    module: wgpu::ShaderModule,
-    pipeline_layout: wgpu::PipelineLayout,
-    uniform: wgpu::Buffer,
-    bind_group: wgpu::BindGroup,
-    pipelines: Vec<((wgpu::TextureFormat, bool), wgpu::RenderPipeline)>,
 }
 
 /// Formats for depth of our own.
@@ -64,33 +40,37 @@ impl Counter {
         Self { targets: None, copy: None, key, bounds: None }
     }
 
-    /// Makes targets where they do not fit any more. `range` asks for bounds: points beyond it count nothing.
+    /// Makes targets where they do not fit any more. `range` asks for bounds: points beyond it count nothing. `own`: volumes are not
+    /// drawn with the camera's projection but with this one.
     pub fn prepare(
         &mut self,
         gpu: &Gpu,
         view: &View<'_>,
         kind: CounterKind,
         range: Option<f64>,
+        own: Option<&Projection>,
         read_counts: &wgpu::BindGroupLayout,
     ) {
         let receivers = view.receivers;
-        let lent = if range.is_none() { lent(receivers, kind) } else { None };
-        let own = if kind == CounterKind::Stencil { OWN_DEPTH_STENCIL } else { OWN_DEPTH };
+        let is_kept = range.is_none() && own.is_none();
+        let lent = if is_kept { lent(receivers, kind) } else { None };
+        let reversed = own.is_some() || view.camera.background_depth() == 0.0;
+        self.bounds = (!is_kept).then(|| DepthBounds::new(view, range, own, reversed));
+        let own_format = if kind == CounterKind::Stencil { OWN_DEPTH_STENCIL } else { OWN_DEPTH };
         // Whole numbers up to 2²⁴ or to 2048.
         let blends = gpu.has(wgpu::Features::FLOAT32_BLENDABLE);
         self.key = TargetKey {
             kind,
-            depth_format: lent.map_or(own, |view| view.texture().format()),
+            depth_format: lent.map_or(own_format, |view| view.texture().format()),
             count_format: if blends { wgpu::TextureFormat::R32Float } else { wgpu::TextureFormat::R16Float },
-            reversed: view.camera.background_depth() == 0.0,
+            reversed,
         };
         let fits = |t: &Targets| t.key == self.key && t.size == receivers.size && t.lent.as_ref() == lent;
         if !self.targets.as_ref().is_some_and(fits) {
             self.targets = Some(Targets::new(gpu, self.key, receivers.size, lent, read_counts));
         }
-        self.bounds = range.map(|range| bounds(view, range, self.key.reversed));
         if lent.is_none() {
-            let copy = self.copy.get_or_insert_with(|| Copy::new(gpu));
+            let copy = self.copy.get_or_insert_with(|| DepthCopy::new(gpu));
             copy.prepare(gpu, self.key.depth_format, self.bounds.is_some());
         }
     }
@@ -180,89 +160,4 @@ fn lent(receivers: &Receivers, kind: CounterKind) -> Option<&wgpu::TextureView> 
     let can_attach = texture.usage().contains(wgpu::TextureUsages::RENDER_ATTACHMENT);
     let is_depth_alone = texture.format().is_depth_stencil_format() && !texture.format().has_stencil_aspect();
     (kind == CounterKind::Float && can_attach && is_depth_alone).then_some(&receivers.depth)
-}
-
-fn bounds(view: &View<'_>, range: f64, reversed: bool) -> DepthBounds {
-    let light = view.light.shape.center().truncate() - view.camera.eye;
-    DepthBounds {
-        eye: Eye::new(view),
-        light: light.as_vec3().to_array(),
-        // A little more, so that rounding loses no lit point.
-        range_squared: (range * range * 1.0001) as f32,
-        nearest: if reversed { 1.0 } else { 0.0 },
-        ..DepthBounds::default()
-    }
-}
-
-impl Copy {
-    fn new(gpu: &Gpu) -> Self {
-        let own = layout(gpu, "depth bounds", wgpu::ShaderStages::FRAGMENT, &[UNIFORM]);
-        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
-        let uniform = gpu.buffer("depth bounds", &[DepthBounds::default()], usage);
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &[Some(&Receivers::layout(gpu)), Some(&own)],
-            ..Default::default()
-        });
-        let bind_group = bind(gpu, "depth bounds", &own, &[uniform.as_entire_binding()]);
-        Self { module: DEPTH_SHADER.module(gpu), pipeline_layout, uniform, bind_group, pipelines: Vec::new() }
-    }
-
-    fn prepare(&mut self, gpu: &Gpu, format: wgpu::TextureFormat, bounded: bool) {
-        if self.pipelines.iter().any(|(key, _)| *key == (format, bounded)) {
-            return;
-        }
-        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("copy depth"),
-            layout: Some(&self.pipeline_layout),
-            vertex: wgpu::VertexState {
-                module: &self.module,
-                entry_point: Some("fullscreen"),
-                compilation_options: Default::default(),
-                buffers: &[],
-            },
-            primitive: Default::default(),
-            depth_stencil: Some(wgpu::DepthStencilState {
-                format,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(wgpu::CompareFunction::Always),
-                stencil: Default::default(),
-                bias: Default::default(),
-            }),
-            multisample: Default::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &self.module,
-                entry_point: Some(if bounded { "bounded_depth" } else { "copy_depth" }),
-                compilation_options: Default::default(),
-                targets: &[],
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
-        self.pipelines.push(((format, bounded), pipeline));
-    }
-
-    fn record(
-        &self,
-        passes: &mut Passes<'_>,
-        receivers: &Receivers,
-        target: &wgpu::TextureView,
-        format: wgpu::TextureFormat,
-        bounds: Option<&DepthBounds>,
-    ) {
-        let key = (format, bounds.is_some());
-        let Some((_, pipeline)) = self.pipelines.iter().find(|(k, _)| *k == key) else { return };
-        if let Some(bounds) = bounds {
-            passes.upload(&self.uniform, bytemuck::bytes_of(bounds));
-        }
-        let depth_stencil = wgpu::RenderPassDepthStencilAttachment {
-            view: target,
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
-            stencil_ops: None,
-        };
-        let mut pass = passes.render("depth for volumes", &[], Some(depth_stencil));
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(0, &receivers.bind_group, &[]);
-        pass.set_bind_group(1, &self.bind_group, &[]);
-        pass.draw(0..3, 0..1);
-    }
 }

@@ -4,10 +4,12 @@
 //! Multiplicity of edges: Bergeron 1986; Aldridge and Woods 2004; Kim 2008.
 
 mod counter;
+mod depth;
 mod options;
 mod pipelines;
 mod plan;
 mod select;
+mod situation;
 mod technique;
 mod views;
 
@@ -30,7 +32,7 @@ const RESOLVE_SHADER: Shader =
 const DEPTH_SHADER: Shader = Shader {
     name: "volume depth",
     parts: &[FULLSCREEN, RECEIVERS, include_str!("depth.wgsl")],
-    layouts: &[Eye::LAYOUT, counter::DepthBounds::LAYOUT],
+    layouts: &[Eye::LAYOUT, depth::DepthBounds::LAYOUT],
 };
 
 const VIEWS_SHADER: Shader = Shader {
@@ -128,15 +130,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     hard: true,
     params: PARAMS,
     views: views::NAMES,
-    shaders: &[
-        FIND_SHADER,
-        COUNT_SHADER,
-        RESOLVE_SHADER,
-        DEPTH_SHADER,
-        VIEWS_SHADER,
-        VIEW_BASE_SHADER,
-        PLAN_SHADER,
-    ],
+    shaders: &[FIND_SHADER, COUNT_SHADER, RESOLVE_SHADER, DEPTH_SHADER, VIEWS_SHADER, VIEW_BASE_SHADER, PLAN_SHADER],
     readme: include_str!("README.md"),
     make: |gpu, settings| Ok(Box::new(technique::Volume::new(gpu, settings))),
 };

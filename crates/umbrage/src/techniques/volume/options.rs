@@ -1,7 +1,7 @@
 //! The technique's parameters as types.
 
 use crate::params::Settings;
-use crate::silhouettes::Extrude;
+use crate::silhouettes::{Extrude, Part};
 
 /// From where shadows are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,6 +16,17 @@ pub(super) enum Count {
     ZPass,
     /// From the eye, and only whether the number is odd.
     Xor,
+}
+
+impl Count {
+    /// All that may be drawn.
+    pub fn parts(self) -> &'static [Part] {
+        match self {
+            Self::ZPassEye | Self::Auto => &Part::ALL,
+            Self::ZFail => &[Part::FailSides, Part::Caps],
+            Self::ZPass | Self::Xor => &[Part::PassSides],
+        }
+    }
 }
 
 /// Where shadows end.
@@ -95,12 +106,7 @@ impl Options {
                 "finite" => Reach::Finite,
                 _ => Reach::Scene,
             },
-            cull: Cull {
-                light: culls("light"),
-                view: culls("view"),
-                caps: culls("caps"),
-                scissor: culls("scissor"),
-            },
+            cull: Cull { light: culls("light"), view: culls("view"), caps: culls("caps"), scissor: culls("scissor") },
             depth_bounds: settings.switch("depth-bounds"),
             quads: settings.choice("parallel") == "quads",
             budget: settings.int("budget").max(0) as usize,

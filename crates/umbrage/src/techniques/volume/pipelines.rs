@@ -123,11 +123,7 @@ impl Pipelines {
                 },
                 buffers: &[],
             },
-            primitive: wgpu::PrimitiveState {
-                cull_mode: key.cull,
-                unclipped_depth: self.clamps,
-                ..Default::default()
-            },
+            primitive: wgpu::PrimitiveState { cull_mode: key.cull, unclipped_depth: self.clamps, ..Default::default() },
             depth_stencil: Some(depth_stencil(key)),
             multisample: Default::default(),
             fragment: (key.target.kind == CounterKind::Float).then_some(counts),
@@ -151,8 +147,11 @@ impl Pipelines {
             stencil: wgpu::StencilState { front: dark, back: dark, read_mask: 0xff, write_mask: 0 },
             bias: Default::default(),
         });
-        let (entry, constants) =
-            if is_stencil { ("dark", &[][..]) } else { ("from_floats", &[("PARITY", f64::from(u8::from(parity)))][..]) };
+        let (entry, constants) = if is_stencil {
+            ("dark", &[][..])
+        } else {
+            ("from_floats", &[("PARITY", f64::from(u8::from(parity)))][..])
+        };
         gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("volume visibility"),
             layout: Some(&layout),
@@ -194,11 +193,10 @@ fn depth_stencil(key: Key) -> wgpu::DepthStencilState {
     }
 }
 
-/// A light cap coincides with the surface that throws, which has to be in front of it whatever a host's vertex shader rounds:
-/// caps are moved away from the eye by a few steps of depth and a part of their slope over a pixel.
+/// A light cap coincides with the surface that throws. A host's vertex shader may round positions otherwise, which moves depth by a
+/// part of its slope over a pixel.
 fn cap_bias(reversed: bool) -> wgpu::DepthBiasState {
-    let away = if reversed { -1 } else { 1 };
-    wgpu::DepthBiasState { constant: 4 * away, slope_scale: 0.25 * away as f32, clamp: 0.0 }
+    wgpu::DepthBiasState { constant: 0, slope_scale: if reversed { -0.25 } else { 0.25 }, clamp: 0.0 }
 }
 
 fn stencil_state(test: Test) -> wgpu::StencilState {

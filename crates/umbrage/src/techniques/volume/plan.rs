@@ -172,8 +172,8 @@ impl Sheet {
             flat(view.camera.eye + direction * far)
         });
         let eye = flat(view.camera.eye);
-        for i in 0..4 {
-            self.line(eye, corners[i], [1.0; 3], 1.0);
+        for corner in corners {
+            self.line(eye, corner, [1.0; 3], 1.0);
         }
     }
 }

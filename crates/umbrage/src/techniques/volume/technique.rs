@@ -1,16 +1,18 @@
 //! A frame: choose casters, find silhouettes, count, resolve.
 
 use super::counter::Counter;
+use super::depth::Projection;
 use super::options::{Count, CounterKind, Options};
 use super::pipelines::{Key, Pipelines, Test};
 use super::select::{Fate, Selection};
+use super::situation::is_parallel;
 use super::views::{self, Views};
 use crate::casters::Edges;
 use crate::params::Settings;
 use crate::silhouettes::{Part, Silhouettes, Style};
 use crate::technique::{DebugView, Stats, Technique};
-use umbrage_core::glam::DVec4;
 use crate::{error::Error, gpu::Gpu, passes::Passes, receivers::Receivers, view::View, visibility::VisibilityTarget};
+use umbrage_core::glam::DVec4;
 
 pub(super) struct Volume {
     options: Options,
@@ -22,6 +24,8 @@ pub(super) struct Volume {
     casting: u32,
     draws: u32,
     gpu: Gpu,
+    /// Depth is clamped at the near and far planes, not clipped.
+    clamps: bool,
     views: Option<Views>,
 }
 
@@ -42,6 +46,7 @@ impl Volume {
             casting: 0,
             draws: 0,
             gpu: gpu.clone(),
+            clamps: gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL),
             views: None,
         }
     }
@@ -53,7 +58,8 @@ impl Volume {
             _ if self.views.as_ref().is_some_and(Views::needs_counts) => Ok(CounterKind::Float),
             Some(CounterKind::Stencil) if !has_stencil => Err(Error::Unsupported {
                 technique: super::INFO.id.into(),
-                what: "this adapter with a stencil counter, since it lacks DEPTH32FLOAT_STENCIL8; set counter=float".into(),
+                what: "this adapter with a stencil counter, since it lacks DEPTH32FLOAT_STENCIL8; set counter=float"
+                    .into(),
             }),
             Some(kind) => Ok(kind),
             None if receivers.stencil.is_some() && layers < STENCIL_LAYERS => Ok(CounterKind::Stencil),
@@ -61,31 +67,30 @@ impl Volume {
         }
     }
 
-    /// What is drawn, and how.
-    fn keys(&self) -> Vec<Key> {
-        let silhouettes = &self.silhouettes;
+    /// How parts are drawn; a part comes twice where fronts and backs go apart.
+    fn keys(&self, parts: &[Part]) -> Vec<Key> {
         let from_eye = if self.options.count == Count::Xor { Test::Parity } else { Test::Pass };
         let faces: &[Option<wgpu::Face>] = if self.options.two_pass && self.kind == CounterKind::Stencil {
             &[Some(wgpu::Face::Back), Some(wgpu::Face::Front)]
         } else {
             &[None]
         };
-        let mut keys = Vec::with_capacity(6);
-        for &cull in faces {
-            for part in Part::ALL.into_iter().filter(|part| !silhouettes.is_empty(*part)) {
-                let test = if part == Part::PassSides { from_eye } else { Test::Fail };
-                let weighted = silhouettes.shape().weighted;
-                keys.push(Key { target: self.counter.key, weighted, test, part, cull });
-            }
-        }
-        keys
+        let key = |part, cull| Key {
+            target: self.counter.key,
+            weighted: self.kind == CounterKind::Float,
+            test: if part == Part::PassSides { from_eye } else { Test::Fail },
+            part,
+            cull,
+        };
+        faces.iter().flat_map(|&cull| parts.iter().map(move |&part| key(part, cull))).collect()
     }
 
     /// Counts one light's shadows from `start`, or on top of what was counted; returns the number of draws.
     fn count_volumes(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges, start: Option<i32>) -> u32 {
         let silhouettes = &self.silhouettes;
         silhouettes.record(passes, edges);
-        let keys = self.keys();
+        let parts: Vec<Part> = Part::ALL.into_iter().filter(|part| !silhouettes.is_empty(*part)).collect();
+        let keys = self.keys(&parts);
         let Some(mut pass) = self.counter.begin(passes, view.receivers, start) else { return 0 };
         if let Some([x, y, width, height]) = self.selection.scissor {
             pass.set_scissor_rect(x, y, width, height);
@@ -117,22 +122,30 @@ impl Volume {
 
 impl Volume {
     fn choose(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<DVec4, Error> {
-        let clamps = gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL);
+        if !self.clamps && is_parallel(&view.camera) {
+            let what = "parallel projections on this adapter, which lacks DEPTH_CLIP_CONTROL".into();
+            return Err(Error::Unsupported { technique: super::INFO.id.into(), what });
+        }
         self.casting = view.casters.tree().len() as u32;
-        self.selection.choose(gpu, view, &self.options, clamps)
+        self.selection.choose(gpu, view, &self.options, self.clamps)
     }
 
     /// Makes room and pipelines for what was chosen.
     fn make_ready(&mut self, gpu: &Gpu, view: &View<'_>, light: DVec4) -> Result<(), Error> {
         let quads = self.options.quads || self.views.as_ref().is_some_and(Views::needs_quads);
         let style = Style { weighted: self.kind == CounterKind::Float, quads };
-        let clip_from_world = view.camera.clip_from_world();
-        self.silhouettes.prepare(gpu, view.casters, &clip_from_world, light, &self.selection.throws, style)?;
+        let own = Projection::of(&view.camera, self.clamps);
+        let camera = view.camera.clip_from_world();
+        let clip_from_world = own.as_ref().map_or(&camera, |own| &own.clip_from_world);
+        let reversed = own.is_some() || view.camera.background_depth() == 0.0;
+        let projection = (clip_from_world, reversed);
+        self.silhouettes.prepare(gpu, view.casters, projection, light, &self.selection.throws, style)?;
         let bounded = self.options.depth_bounds && self.options.is_finite() && light.w != 0.0;
         let range = view.light.range.filter(|_| bounded);
-        self.counter.prepare(gpu, view, self.kind, range, &self.pipelines.read_counts);
+        self.counter.prepare(gpu, view, self.kind, range, own.as_ref(), &self.pipelines.read_counts);
         self.pipelines.prepare_resolve(gpu, self.counter.key, self.options.count == Count::Xor);
-        for key in self.keys() {
+        // All that the way of counting may come to, so that none is made when the eye comes into a shadow.
+        for key in self.keys(self.options.count.parts()) {
             self.pipelines.prepare(gpu, key);
         }
         Ok(())
@@ -143,8 +156,8 @@ impl Technique for Volume {
     fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
         let light = self.choose(gpu, view)?;
         let is_lit = self.selection.throws.is_empty();
-        if !is_lit {
-            self.kind = self.choose_counter(gpu, view.receivers, self.selection.layers)?;
+        if let Some(edges) = view.casters.made_edges().filter(|_| !is_lit) {
+            self.kind = self.choose_counter(gpu, view.receivers, edges.layers)?;
             self.make_ready(gpu, view, light)?;
         }
         if let Some(views) = &mut self.views {
@@ -178,25 +191,21 @@ impl Technique for Volume {
         visibility: &VisibilityTarget,
     ) -> Result<(), Error> {
         // All counts start with all the shadows that the eye is in.
-        let (mut eye_count, mut layers) = (0, 0_u32);
+        let mut eye_count = 0;
         for view in views {
             visibility.check(view.receivers)?;
             self.choose(gpu, view)?;
             eye_count += self.selection.eye_count;
-            layers = layers.saturating_add(self.selection.layers);
         }
         let mut start = Some(eye_count);
         self.draws = 0;
         for view in views {
             let light = self.choose(gpu, view)?;
-            if self.selection.throws.is_empty() {
-                continue;
-            }
+            let Some(edges) = view.casters.made_edges().filter(|_| !self.selection.throws.is_empty()) else { continue };
+            let layers = edges.layers.saturating_mul(views.len() as u32);
             self.kind = self.choose_counter(gpu, view.receivers, layers)?;
             self.make_ready(gpu, view, light)?;
-            if let Some(edges) = view.casters.made_edges() {
-                self.draws += self.count_volumes(passes, view, edges, start.take());
-            }
+            self.draws += self.count_volumes(passes, view, edges, start.take());
         }
         self.selection.scissor = None;
         if start.is_some() {

@@ -46,8 +46,9 @@ fn heated(@builtin(position) at: vec4f) -> @location(0) vec4f {
 // Fronts orange, backs blue, added to the scene: the more the brighter, but never so bright that nothing is told apart.
 @fragment
 fn volumes(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    let both = log2(1.0 + textureLoad(numbers, vec2i(at.xy), 0).xy) / log2(1.0 + base.scale);
-    return vec4f(grey(at) + both.x * vec3f(0.75, 0.32, 0.06) + both.y * vec3f(0.08, 0.28, 0.75), 1.0);
+    let surfaces = textureLoad(numbers, vec2i(at.xy), 0).xy;
+    let both = surfaces / (surfaces + 3.0);
+    return vec4f(grey(at) + both.x * vec3f(0.8, 0.34, 0.05) + both.y * vec3f(0.06, 0.3, 0.8), 1.0);
 }
 
 // Lit surfaces grey, shadows by how many there are: a colour for each number up to seven, then brighter to white;

@@ -56,7 +56,10 @@ struct Targets {
 enum Draw {
     Base(&'static str),
     /// Sides or caps of volumes with this fragment shader.
-    Volumes { entry: &'static str, caps: bool },
+    Volumes {
+        entry: &'static str,
+        caps: bool,
+    },
 }
 
 impl Views {
@@ -88,7 +91,13 @@ impl Views {
     }
 
     /// Makes targets and pipelines.
-    pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, silhouettes: &Silhouettes, counts: Option<&wgpu::TextureView>) {
+    pub fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        view: &View<'_>,
+        silhouettes: &Silhouettes,
+        counts: Option<&wgpu::TextureView>,
+    ) {
         let size = view.receivers.size;
         if self.targets.as_ref().is_none_or(|t| t.size != size) {
             self.targets = Some(self.targets(gpu, size));
@@ -151,7 +160,13 @@ impl Views {
         }
     }
 
-    fn fill(&self, pass: &mut wgpu::RenderPass<'_>, receivers: &Receivers, entry: &'static str, base: &wgpu::BindGroup) {
+    fn fill(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        receivers: &Receivers,
+        entry: &'static str,
+        base: &wgpu::BindGroup,
+    ) {
         let Some(pipeline) = self.find(Draw::Base(entry)) else { return };
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &receivers.bind_group, &[]);
@@ -167,7 +182,7 @@ impl Views {
         entry: &'static str,
     ) {
         let Some(edges) = edges else { return };
-        let is_drawn = |part: &Part| !silhouettes.is_empty(*part) && !(entry == "line" && *part == Part::Caps);
+        let is_drawn = |part: &Part| !(silhouettes.is_empty(*part) || (entry == "line" && *part == Part::Caps));
         for part in Part::ALL.into_iter().filter(is_drawn) {
             if let Some(pipeline) = self.find(Draw::Volumes { entry, caps: part == Part::Caps }) {
                 pass.set_pipeline(pipeline);
@@ -231,10 +246,9 @@ fn volume_pipeline(
 ) -> wgpu::RenderPipeline {
     let module = VIEWS_SHADER.module(gpu);
     let groups = [Some(silhouettes.layout()), Some(&Edges::draw_layout(gpu))];
-    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        bind_group_layouts: &groups,
-        ..Default::default()
-    });
+    let layout = gpu
+        .device
+        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { bind_group_layouts: &groups, ..Default::default() });
     let options = || wgpu::PipelineCompilationOptions { constants, ..Default::default() };
     let target = match fragment {
         "one" => additive(NUMBERS),

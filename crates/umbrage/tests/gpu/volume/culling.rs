@@ -5,6 +5,7 @@ use super::random::Random;
 use super::views::{small_scene, view};
 use super::{Bench, COUNTS, assert_none};
 use crate::common::gpu;
+use std::collections::BTreeMap;
 use umbrage::core::{Camera, Image, Light, scenes};
 
 const CULLS: [&str; 6] = ["none", "all", "light", "view", "caps", "scissor"];
@@ -16,10 +17,16 @@ fn unequal<T: PartialEq + Copy + std::fmt::Debug>(what: &str, drawn: &[(String, 
     off.map(|(set, off)| format!("{what}, {set}: {} pixels, {:?}", off.len(), &off[..off.len().min(3)])).collect()
 }
 
+/// Adds to `sums` what the renderer of settings number `i` left out.
+fn add_culled(sums: &mut BTreeMap<&'static str, u64>, bench: &mut Bench, i: usize) {
+    let counts = bench.renderer(i).technique(0).unwrap().counts();
+    counts.into_iter().for_each(|(name, count)| *sums.entry(name).or_default() += count);
+}
+
 #[test]
 fn culling_changes_no_visibility() {
     let gpu = gpu();
-    let mut wrong = Vec::new();
+    let (mut wrong, mut culled) = (Vec::new(), BTreeMap::new());
     let sets: Vec<String> = COUNTS.iter().flat_map(|c| CULLS.map(|cull| format!("{c},cull={cull}"))).collect();
     let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
     for (number, id) in (0..).zip(["primitives", "lantern", "picket-fence", "terrain"]) {
@@ -31,23 +38,26 @@ fn culling_changes_no_visibility() {
             for same_count in drawn.chunks(CULLS.len()) {
                 wrong.extend(unequal(&format!("{id} view {kind}"), same_count));
             }
+            add_culled(&mut culled, &mut bench, 1);
         }
+    }
+    for what in ["out of view", "shadow nothing", "light caps culled", "dark caps culled"] {
+        assert!(culled[what] > 0, "there was nothing to cull: {culled:?}");
     }
     assert_none(&wrong);
 }
 
-/// A light that ends within the scene, and sometimes a view of all its end.
+/// A strong light that ends within the scene.
 fn ending(random: &mut Random, bench: &Bench, kind: usize) -> (Camera, Light) {
-    let kind = [0, 2, 3, 3][kind % 4] + 5 * kind;
-    let (camera, light, _) = view(random, bench, kind);
-    let range = bench.scene.bounds().radius() * random.range(0.1, 0.8);
-    (camera, Light { range: Some(range), ..light })
+    let (camera, light, _) = view(random, bench, [0, 2, 3, 3][kind % 4] + 5 * kind);
+    let range = light.shape.center().truncate().distance(camera.target) * random.range(0.4, 1.5);
+    (camera, Light { range: Some(range), ..Light::new(light.shape) })
 }
 
 #[test]
 fn ending_shadows_where_the_light_ends_changes_no_colour() {
     let gpu = gpu();
-    let mut wrong = Vec::new();
+    let (mut wrong, mut culled, mut bright) = (Vec::new(), BTreeMap::new(), 0);
     let mut sets = vec!["reach=infinite,cull=none".to_string()];
     for (i, cull) in CULLS.into_iter().enumerate() {
         for bounds in ["off", "on"] {
@@ -63,8 +73,12 @@ fn ending_shadows_where_the_light_ends_changes_no_colour() {
         for kind in 0..8 {
             let (camera, light) = ending(&mut random, &bench, kind);
             let drawn = bench.draw(&camera, &light, |renderer| renderer.color().unwrap());
+            bright += drawn[0].1.data.iter().filter(|p| p[0] > 100).count();
             wrong.extend(unequal(&format!("{id} view {kind}"), &drawn));
+            add_culled(&mut culled, &mut bench, 3);
         }
     }
+    println!("{bright} bright pixels; {culled:?}");
+    assert!(bright > 10_000 && culled["out of light"] > 50, "there was little to see or to cull");
     assert_none(&wrong);
 }

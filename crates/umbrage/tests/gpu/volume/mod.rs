@@ -1,8 +1,21 @@
 //! Shadow volumes against the ground truth, view by view, and against themselves.
 
 mod agree;
+mod cameras;
+mod counting;
 mod culling;
+mod depth_host;
+mod flags;
+mod hosts;
+mod inspect;
+mod layers;
+mod lights;
+mod meshes;
+mod models;
+mod moving;
 mod random;
+mod references;
+mod transforms;
 mod views;
 
 use crate::common::{mask, renderer};
@@ -35,6 +48,10 @@ pub struct Target {
 }
 
 impl Target {
+    pub fn new(reference: Image<f32>, mask: Image<bool>, is_eye_in_shadow: bool) -> Self {
+        Self { inside: interior(&reference, &mask, None), reference, mask, is_eye_in_shadow }
+    }
+
     /// How many pixels are compared, and how many of them are dark.
     pub fn pixels(&self) -> (usize, usize) {
         let dark = |(scored, v): (&bool, &f32)| *scored && *v < 0.5;
@@ -111,9 +128,29 @@ impl Bench {
         &mut self.renderers[i].1
     }
 
+    /// Moves the instances to where `scene` has them; the truth does not follow.
+    pub fn move_all(&mut self, gpu: &Gpu, scene: &Scene) {
+        for (_, renderer) in &mut self.renderers {
+            for (i, instance) in scene.instances.iter().enumerate() {
+                renderer.casters_mut().move_instance(gpu, i, &instance.world_from_mesh);
+            }
+        }
+    }
+
+    /// What the renderer of settings number `i` counted of this.
+    pub fn count_of(&mut self, i: usize, name: &str) -> u64 {
+        let counts = self.renderers[i].1.technique(0).unwrap().counts();
+        counts.iter().find(|(n, _)| *n == name).unwrap_or_else(|| panic!("no count {name}")).1
+    }
+
+    /// The truth of distant pixels, too.
+    pub fn whole_target(&self, camera: &Camera, light: &Light) -> Target {
+        target(&self.tracer, camera, light, self.size, f32::INFINITY)
+    }
+
     /// The truth.
     pub fn target(&self, camera: &Camera, light: &Light) -> Target {
-        target(&self.tracer, camera, light, self.size)
+        target(&self.tracer, camera, light, self.size, 60.0)
     }
 
     /// Complaints about a view, one for each of the settings that are wrong.
@@ -136,15 +173,14 @@ impl Bench {
     }
 }
 
-/// What `tracer` finds.
-pub fn target(tracer: &Tracer, camera: &Camera, light: &Light, (width, height): (u32, u32)) -> Target {
+/// What `tracer` finds, to be compared up to a distance of `far` metres.
+pub fn target(tracer: &Tracer, camera: &Camera, light: &Light, size: (u32, u32), far: f32) -> Target {
+    let (width, height) = size;
     let geometry = tracer.geometry(camera, width, height);
     let options = Options { samples: 1, ..Options::default() };
     let truth = tracer.visibility(&geometry, light, &[], &options, &|_, _| ());
-    let mask = mask(&truth, &geometry);
-    let inside = interior(&truth.visibility, &mask, None);
-    let is_eye_in_shadow = tracer.blocked(camera.eye, light.shape.center());
-    Target { mask, inside, reference: truth.visibility, is_eye_in_shadow }
+    let mask = mask(&truth, &geometry, far);
+    Target::new(truth.visibility, mask, tracer.blocked(camera.eye, light.shape.center()))
 }
 
 /// Fails with all complaints.

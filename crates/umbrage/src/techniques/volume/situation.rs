@@ -1,0 +1,159 @@
+//! What choosing casters goes by: camera, light and what is seen, the same for all of them.
+
+use super::options::Options;
+use crate::casters::{MeshEdges, Placed};
+use crate::view::View;
+use umbrage_core::glam::{DMat3, DVec3, DVec4};
+use umbrage_core::shadow_hull::{self, Convex};
+use umbrage_core::{Bounds, CameraView, Frustum};
+
+/// See the module.
+pub(super) struct Situation<'a> {
+    pub view: &'a View<'a>,
+    pub options: &'a Options,
+    /// The light's centre, moved by rounding's width.
+    pub light: DVec4,
+    /// How far rounding moves things, metres.
+    pub rounding: f64,
+    pub frustum: Frustum,
+    /// A box around the eye and what is in front of the near plane.
+    pub around_eye: Bounds,
+    /// What surely holds every point that shadows the viewport, where depth is clipped at the near plane.
+    pyramid: Option<Convex>,
+    pub is_parallel_view: bool,
+    /// Shadows end where the light does.
+    pub range: Option<f64>,
+    /// A box around everything that rays from the eye can end at, and the eye.
+    seen: Bounds,
+    /// How far from the light that box reaches; not for parallel light.
+    pub farthest: Option<f64>,
+}
+
+impl<'a> Situation<'a> {
+    /// Without `clamps`, volumes are clipped at the near plane.
+    pub fn new(view: &'a View<'a>, options: &'a Options, clamps: bool) -> Self {
+        let camera = &view.camera;
+        let rounding = 4e-6 * largest_coordinate(view);
+        let light = off_ties(view.light.shape.center(), rounding);
+        let around_eye = around_eye(view).grown(rounding);
+        let seen = seen(view).union(around_eye).grown(4.0 * rounding);
+        let distance = |corner: DVec3| corner.distance(light.truncate());
+        Self {
+            view,
+            options,
+            light,
+            rounding,
+            frustum: Frustum::of(&camera.clip_from_world()),
+            around_eye,
+            pyramid: (!clamps).then(|| shadow_hull::occlusion_pyramid(camera, light)),
+            is_parallel_view: is_parallel(camera),
+            range: view.light.range.filter(|_| options.is_finite() && light.w != 0.0),
+            seen,
+            farthest: (light.w != 0.0).then(|| seen.corners().map(distance).into_iter().fold(0.0, f64::max)),
+        }
+    }
+
+    /// True where depth is clipped, so that counts would have to start at the near plane, pixel by pixel.
+    pub fn is_clipped(&self) -> bool {
+        self.pyramid.is_some()
+    }
+
+    /// False where the box surely shadows neither the eye nor, where that matters, a point of the near plane.
+    pub fn may_shadow_eye(&self, bounds: &Bounds) -> bool {
+        match &self.pyramid {
+            Some(pyramid) => pyramid.may_touch(bounds),
+            None => shadow_hull::segment_touches(self.view.camera.eye, self.light, bounds, self.rounding),
+        }
+    }
+
+    /// The side of the box around all that is seen where the caster's shadow leaves it soonest, as n · p = w. Rays from
+    /// the eye stay inside, so what lies beyond counts for nothing and need not be drawn. Zero where the shadow leaves the
+    /// box through several sides.
+    pub fn end_of(&self, bounds: &Bounds) -> DVec4 {
+        let mut best = (f64::INFINITY, DVec4::ZERO);
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            for normal in [axis, -axis] {
+                // Of the box: the corner that is least far along the normal, and how far the light is from there.
+                let least = normal.dot(if normal == axis { bounds.min } else { bounds.max });
+                let side = normal.dot(if normal == axis { self.seen.max } else { self.seen.min });
+                let away = least * self.light.w - normal.dot(self.light.truncate());
+                let middle = bounds.center();
+                let direction = middle * self.light.w - self.light.truncate();
+                let length = (side - normal.dot(middle)) / normal.dot(direction) * direction.length();
+                // Not so steep that rounding moves where a ray meets the side.
+                if away > 1e-3 * direction.length() && length < best.0 {
+                    best = (length, normal.extend(side));
+                }
+            }
+        }
+        best.1
+    }
+
+    /// How far away from the light corners of the shadow have to lie so that no triangle between them cuts into the light's range
+    /// (the gaps of PX figure 3.7); 0, infinitely far, where the caster is so near that this is very far.
+    pub fn finite_reach(&self, range: f64, placed: &Placed, mesh: &MeshEdges) -> f64 {
+        let light = self.light.truncate();
+        let near = light.clamp(placed.bounds.min, placed.bounds.max).distance(light);
+        let half_edge = 0.5 * mesh.adjacency.longest_edge * largest_stretch(&placed.world_from_mesh.matrix3);
+        // A triangle whose edges are seen under an angle fits into a cone that is 2 / √3 times as wide.
+        let half_angle = (half_edge / near).asin() * 2.0 / 3.0_f64.sqrt();
+        if half_angle < 1.3 { range / half_angle.cos() * 1.001 } else { 0.0 }
+    }
+}
+
+/// Largest coordinate that shaders compute with, metres: what rounding goes by.
+fn largest_coordinate(view: &View<'_>) -> f64 {
+    let origin = view.casters.origin();
+    let light = view.light.shape.center();
+    let scene = view.casters.all_bounds();
+    let scene = Bounds { min: scene.min - origin, max: scene.max - origin }.largest_coordinate();
+    let points = [view.camera.eye - origin, (light.truncate() - origin) * light.w];
+    points.iter().map(|p| p.abs().max_element()).fold(scene, f64::max)
+}
+
+/// A light at exactly the place of a vertex has no direction to cast it in. Moved by less than anybody sees, and
+/// along no axis, it has.
+fn off_ties(light: DVec4, rounding: f64) -> DVec4 {
+    light + DVec3::new(0.1, 0.073, 0.087).extend(0.0) * (rounding * light.w)
+}
+
+/// True where all lines of sight run in one direction.
+pub(super) fn is_parallel(camera: &CameraView) -> bool {
+    camera.clip_from_view.row(3).truncate() == DVec3::ZERO
+}
+
+/// A box around the eye and the near rectangle.
+fn around_eye(view: &View<'_>) -> Bounds {
+    let eye_from_clip = view.clip_from_eye().inverse();
+    let near_depth = if view.camera.background_depth() == 0.0 { 1.0 } else { 0.0 };
+    let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
+    let near = corners.map(|(x, y)| {
+        let p = eye_from_clip * DVec4::new(x, y, near_depth, 1.0);
+        view.camera.eye + p.truncate() / p.w
+    });
+    Bounds::of(near).with(view.camera.eye)
+}
+
+/// A box around what the camera sees of the receivers.
+fn seen(view: &View<'_>) -> Bounds {
+    let mut corners = Vec::with_capacity(32);
+    Frustum::of(&view.camera.clip_from_world()).clip_box(&view.casters.receivers_bounds(), &mut corners);
+    Bounds::of(corners)
+}
+
+pub(super) fn overlap(a: &Bounds, b: &Bounds) -> bool {
+    a.min.cmple(b.max).all() && b.min.cmple(a.max).all()
+}
+
+pub(super) fn holds(bounds: &Bounds, p: DVec3) -> bool {
+    p.cmpge(bounds.min).all() && p.cmple(bounds.max).all()
+}
+
+pub(super) fn common(a: &Bounds, b: &Bounds) -> Bounds {
+    Bounds { min: a.min.max(b.min), max: a.max.min(b.max) }
+}
+
+/// The most that a matrix lengthens a vector, from above.
+pub(super) fn largest_stretch(m: &DMat3) -> f64 {
+    (m.x_axis.length_squared() + m.y_axis.length_squared() + m.z_axis.length_squared()).sqrt()
+}
