@@ -165,11 +165,11 @@ impl Selection {
                 is_open_to_eye || (s.may_shadow_eye(&bounds) && !self.count_from_eye(s, placed, mesh, rule))
             }
         };
-        let (light_cap, dark_cap) = if z_fail { self.caps(s, placed, &bounds) } else { (false, false) };
-        // What is counted from infinity needs its dark cap, and that is best far away.
-        let ends = !z_fail && s.options.reach != Reach::Infinite;
+        // What is counted from infinity needs a dark cap where it ends, while parallel light needs none infinitely far away.
+        let ends = s.options.reach != Reach::Infinite && !(z_fail && s.light.w == 0.0);
         let end = if ends { s.end_of(&placed.bounds) } else { DVec4::ZERO };
-        let farthest = s.farthest.filter(|_| ends && end == DVec4::ZERO);
+        let (light_cap, dark_cap) = if z_fail { self.caps(s, placed, &bounds, end) } else { (false, false) };
+        let farthest = s.farthest.filter(|_| ends && !z_fail && end == DVec4::ZERO);
         let reach = s.range.or(farthest).map_or(0.0, |range| s.finite_reach(range, placed, mesh));
         Throw { place, rule, z_fail, light_cap, dark_cap, end, reach: reach as f32 }
     }
@@ -197,12 +197,16 @@ impl Selection {
     }
 
     /// Which caps may be seen: those that are not can't be behind anything in view (GG 9.5.3).
-    fn caps(&mut self, s: &Situation<'_>, placed: &Placed, bounds: &Bounds) -> (bool, bool) {
+    fn caps(&mut self, s: &Situation<'_>, placed: &Placed, bounds: &Bounds, end: DVec4) -> (bool, bool) {
         let cull = s.options.cull.caps;
         let light_cap = !cull || s.frustum.may_see(&placed.bounds);
         let has_dark = s.light.w != 0.0 || s.options.quads;
-        let dark_cap = has_dark
-            && (!cull || s.range.is_some() || shadow_hull::dark_cap_may_be_seen(&s.view.camera, bounds, s.light));
+        let may_see_dark = || match (end == DVec4::ZERO, s.range) {
+            (false, _) => s.frustum.may_see(&s.shadow_on(bounds, end)),
+            (true, Some(_)) => true,
+            (true, None) => shadow_hull::dark_cap_may_be_seen(&s.view.camera, bounds, s.light),
+        };
+        let dark_cap = has_dark && (!cull || may_see_dark());
         for (kind, drawn) in [light_cap, dark_cap].into_iter().enumerate() {
             self.caps[kind] += u32::from(drawn);
             self.caps_culled[kind] += u32::from(!drawn && (kind == 0 || has_dark));

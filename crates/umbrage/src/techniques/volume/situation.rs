@@ -89,6 +89,16 @@ impl<'a> Situation<'a> {
         best.1
     }
 
+    /// A box around what a caster's box throws onto a plane that [`Situation::end_of`] gave.
+    pub fn shadow_on(&self, bounds: &Bounds, end: DVec4) -> Bounds {
+        let normal = end.truncate();
+        let dark = bounds.corners().map(|p| {
+            let away = p * self.light.w - self.light.truncate();
+            p + away * ((end.w - normal.dot(p)) / normal.dot(away)).max(0.0)
+        });
+        Bounds::of(dark).grown(self.rounding)
+    }
+
     /// How far away from the light corners of the shadow have to lie so that no triangle between them cuts into the light's range
     /// (the gaps of PX figure 3.7); 0, infinitely far, where the caster is so near that this is very far.
     pub fn finite_reach(&self, range: f64, placed: &Placed, mesh: &MeshEdges) -> f64 {

@@ -1,10 +1,12 @@
 //! All ways to extrude, to count and to draw give the same picture.
 
+use super::meshes::soups;
 use super::random::Random;
 use super::views::{small_scene, view};
-use super::{Bench, COUNTS};
+use super::{Bench, COUNTS, assert_none, floor, put};
 use crate::common::gpu;
-use umbrage::core::{Image, scenes};
+use umbrage::core::glam::{DAffine3, DVec3};
+use umbrage::core::{Image, LightShape, Scene, scenes};
 
 /// Each value of each parameter that changes no picture, most pairs of them.
 const WAYS: &[&str] = &[
@@ -30,14 +32,25 @@ pub fn differences<T: PartialEq + Copy + std::fmt::Debug>(a: &Image<T>, b: &Imag
     pixels.filter(|p| a[*p] != b[*p]).map(|p| (p, a[p], b[p])).collect()
 }
 
+/// Soups of triangles side by side, every second one mirrored.
+fn soup() -> Scene {
+    let mut scene = floor(LightShape::Point { position: DVec3::new(0.3, 6.0, 0.2) });
+    for (i, (_, mesh)) in soups().into_iter().enumerate() {
+        let place = DVec3::new(2.5 * (i % 4) as f64 - 3.7, 1.2, 2.5 * (i / 4) as f64 - 3.7);
+        let side = if i % 2 == 1 { -1.0 } else { 1.0 };
+        put(&mut scene, mesh, DAffine3::from_translation(place) * DAffine3::from_scale(DVec3::new(side, 1.0, 1.0)));
+    }
+    scene
+}
+
 #[test]
 fn all_ways_give_one_picture() {
     let gpu = gpu();
     let mut wrong = Vec::new();
     let sets: Vec<String> = COUNTS.iter().flat_map(|c| WAYS.iter().map(move |w| format!("{c},{w}"))).collect();
     let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
-    for id in ["primitives", "lantern", "overlap"] {
-        let scene = small_scene(scenes::find(id).unwrap().build);
+    let registry = ["primitives", "lantern", "overlap"].map(|id| (id, small_scene(scenes::find(id).unwrap().build)));
+    for (id, scene) in registry.into_iter().chain([("soup", soup())]) {
         let mut bench = Bench::new(&gpu, scene, (160, 120), &sets);
         let mut random = Random(11);
         for kind in 0..5 {
@@ -52,5 +65,5 @@ fn all_ways_give_one_picture() {
             }
         }
     }
-    super::assert_none(&wrong);
+    assert_none(&wrong);
 }

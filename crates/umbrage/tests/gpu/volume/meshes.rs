@@ -80,7 +80,8 @@ fn triangles(positions: &[[f32; 3]], indices: &[u32]) -> Mesh {
     Mesh { positions: positions.iter().map(|p| (*p).into()).collect(), indices: indices.to_vec(), ..Mesh::default() }
 }
 
-fn soups() -> Vec<(&'static str, Mesh)> {
+/// Triangle soups by name.
+pub fn soups() -> Vec<(&'static str, Mesh)> {
     let random = &mut Random(8);
     let (sphere, torus) = (primitive::sphere(24, 12), primitive::torus(0.8, 0.3, 24, 12));
     let lone = [[-1.0, -0.4, 0.2], [1.0, -0.2, 0.0], [0.1, 0.9, -0.4]];

@@ -7,7 +7,7 @@ use umbrage::core::scenes::SCENES;
 use umbrage::core::{Camera, Light, Scene};
 
 /// Of each scene.
-const VIEWS: usize = 250;
+const VIEWS: usize = 23;
 
 /// A scene of the registry with few triangles. Masked ones cast whole, so they are made whole.
 pub fn small_scene(build: fn(f32) -> Scene) -> Scene {
@@ -35,7 +35,7 @@ fn random_views_are_true() {
     let gpu = gpu();
     let (mut wrong, mut views, mut in_shadow, mut mixed) = (Vec::new(), 0, 0, 0);
     for (number, entry) in (0..).zip(SCENES) {
-        let mut random = Random(number * 104729 + 77);
+        let mut random = Random(number * 7919 + 1);
         let mut bench = Bench::new(&gpu, small_scene(entry.build), (160, 120), &COUNTS);
         for kind in 0..VIEWS {
             let (camera, light, target) = view(&mut random, &bench, kind);
@@ -43,7 +43,7 @@ fn random_views_are_true() {
             views += 1;
             in_shadow += usize::from(target.is_eye_in_shadow);
             mixed += usize::from(dark > 50 && dark + 50 < scored);
-            let w = bench.compare(&format!("{} view {kind}", entry.id), &camera, &light, &target); if !w.is_empty() { println!("STRESS {camera:?} {light:?}\n{}", w.join("\n")); } wrong.extend(w);
+            wrong.extend(bench.compare(&format!("{} view {kind}", entry.id), &camera, &light, &target));
         }
     }
     println!("{views} views, {in_shadow} from within a shadow, {mixed} with light and shadow");
