@@ -104,7 +104,7 @@ fn vertices_far_from_the_origin_of_their_mesh_are_right() {
         for i in &mut scene.instances[1..] {
             let mesh = scene.meshes[i.mesh].transformed(&DAffine3::from_translation(offset));
             scene.meshes[i.mesh] = mesh;
-            i.world_from_mesh = i.world_from_mesh * DAffine3::from_translation(-offset);
+            i.world_from_mesh *= DAffine3::from_translation(-offset);
         }
         wrong.extend(Bench::new(&gpu, scene, (160, 120), &COUNTS).own_complaints("far from the mesh's origin"));
     }
