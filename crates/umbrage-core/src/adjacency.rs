@@ -89,6 +89,25 @@ impl Adjacency {
     }
 }
 
+/// The mesh with every triangle that repeats an earlier one's corners, whichever way round, shrunk to a point; numbers stay.
+///
+/// A copy adds nothing to a shadow but sides on top of one another, and where unequal numbers of copies meet a side in the
+/// middle of a surface, where rounding may put a pixel on the wrong side of it.
+pub fn without_copies(mesh: &Mesh) -> Mesh {
+    let welded = weld(&mesh.positions);
+    let place = |i: u32| welded.get(i as usize).copied().unwrap_or(NONE);
+    let mut sorted: Vec<([u32; 3], usize)> = mesh.triangles().map(|t| t.map(place)).zip(0..).collect();
+    sorted.iter_mut().for_each(|(corners, _)| corners.sort_unstable());
+    sorted.sort_unstable();
+    let mut single = mesh.clone();
+    for pair in sorted.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+        let at = 3 * pair[1].1;
+        single.indices[at + 1] = single.indices[at];
+        single.indices[at + 2] = single.indices[at];
+    }
+    single
+}
+
 /// Numbers and welded corners of the triangles that are whole.
 fn welded_triangles(mesh: &Mesh) -> Vec<(u32, [u32; 3])> {
     let welded = weld(&mesh.positions);
@@ -263,6 +282,19 @@ pub(crate) mod tests {
         assert_eq!(at_first(&one_back), [([0, 1], [0, 1], false), ([0, 1], [2, NONE], false)]);
         let two_back = checked(&mesh(&positions, &[[1, 0, 2], [0, 1, 3], [1, 0, 4]]));
         assert_eq!(at_first(&two_back), [([0, 1], [1, 0], false), ([1, 0], [2, NONE], false)]);
+    }
+
+    #[test]
+    fn copies_go_and_numbers_stay() {
+        let mut sphere = primitive::sphere(8, 6);
+        let alone = Adjacency::of(&sphere);
+        let [a, b, c] = sphere.triangles().nth(20).expect("a triangle");
+        sphere.indices.splice(0..0, [b, c, a, c, b, a]);
+        let single = Adjacency::of(&without_copies(&sphere));
+        assert_eq!((single.triangles.len(), single.is_closed), (alone.triangles.len(), true));
+        assert!(single.numbers.contains(&0) && !single.numbers.contains(&1) && !single.numbers.contains(&22));
+        let broken = Mesh { indices: vec![0, 1, 999, 0, 1, 999], ..primitive::plane() };
+        assert!(Adjacency::of(&without_copies(&broken)).triangles.is_empty());
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::{Casters, eye_tree::EyeTree};
 use crate::fullscreen::{bind, layout};
 use crate::{error::Error, gpu::Gpu, shader::shader_struct};
 use std::sync::OnceLock;
-use umbrage_core::adjacency::{Adjacency, NONE};
+use umbrage_core::adjacency::{Adjacency, NONE, without_copies};
 use umbrage_core::{Mesh, glam::Vec4};
 
 /// Declares `Edge` and what a light makes of one.
@@ -63,7 +63,7 @@ impl Edges {
     pub(super) fn new(gpu: &Gpu, casters: &Casters) -> Result<Self, Error> {
         let (mut edges, mut planes, mut meshes) = (Vec::<Edge>::new(), Vec::<Vec4>::new(), Vec::new());
         for part in &casters.meshes {
-            let adjacency = Adjacency::of(&part.mesh);
+            let adjacency = Adjacency::of(&without_copies(&part.mesh));
             let (first_edge, first_triangle) = (edges.len() as u32, planes.len() as u32);
             let number = |t: u32| if t == NONE { NO_TRIANGLE } else { first_triangle + adjacency.numbers[t as usize] };
             edges.extend(adjacency.edges.iter().map(|e| Edge {
