@@ -75,6 +75,10 @@ impl Volume for Convex {
     fn side(&self, bounds: &Bounds) -> Side {
         Side::of(self.may_touch(bounds), || self.holds(bounds))
     }
+
+    fn may_touch(&self, bounds: &Bounds) -> bool {
+        self.may_touch(bounds)
+    }
 }
 
 /// Height over a plane of the corner made of `ahead` where the normal points up an axis and of `behind` elsewhere. It is

@@ -141,7 +141,7 @@ impl SceneTree {
     }
 
     fn gather_touched(&self, node: &Node, volume: &impl Volume, found: &mut Vec<u32>) {
-        let touched = |o: &u32| self.bounds(*o).is_some_and(|b| volume.side(&b) != Side::Outside);
+        let touched = |o: &u32| self.bounds(*o).is_some_and(|b| volume.may_touch(&b));
         found.extend(node.objects.iter().copied().filter(touched));
         for child in self.occupied_children(node) {
             match volume.side(&child.bounds) {

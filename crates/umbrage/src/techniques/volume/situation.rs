@@ -70,20 +70,24 @@ impl<'a> Situation<'a> {
     /// the eye stay inside, so what lies beyond counts for nothing and need not be drawn. Zero where the shadow leaves the
     /// box through several sides.
     pub fn end_of(&self, bounds: &Bounds) -> DVec4 {
+        let light = self.light.truncate();
+        let middle = bounds.center() * self.light.w - light;
+        // How far each face of the caster's box is from the light, and how many times as far the shadow's middle leaves.
+        let (low, high) = (bounds.min * self.light.w - light, bounds.max * self.light.w - light);
+        let (to_low, to_high) = (self.seen.min - bounds.center(), self.seen.max - bounds.center());
+        // Not so steep that rounding moves where a ray meets the side.
+        let least = 1e-3 * middle.length();
         let mut best = (f64::INFINITY, DVec4::ZERO);
-        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
-            for normal in [axis, -axis] {
-                // Of the box: the corner that is least far along the normal, and how far the light is from there.
-                let least = normal.dot(if normal == axis { bounds.min } else { bounds.max });
-                let side = normal.dot(if normal == axis { self.seen.max } else { self.seen.min });
-                let away = least * self.light.w - normal.dot(self.light.truncate());
-                let middle = bounds.center();
-                let direction = middle * self.light.w - self.light.truncate();
-                let length = (side - normal.dot(middle)) / normal.dot(direction) * direction.length();
-                // Not so steep that rounding moves where a ray meets the side.
-                if away > 1e-3 * direction.length() && length < best.0 {
-                    best = (length, normal.extend(side));
-                }
+        for (axis, normal) in [DVec3::X, DVec3::Y, DVec3::Z].into_iter().enumerate() {
+            let (times, end) = if low[axis] > least {
+                (to_high[axis] / middle[axis], normal.extend(self.seen.max[axis]))
+            } else if high[axis] < -least {
+                (to_low[axis] / middle[axis], (-normal).extend(-self.seen.min[axis]))
+            } else {
+                continue;
+            };
+            if times < best.0 {
+                best = (times, end);
             }
         }
         best.1

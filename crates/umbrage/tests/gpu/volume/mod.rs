@@ -2,6 +2,7 @@
 
 mod agree;
 mod cameras;
+mod choices;
 mod counting;
 mod culling;
 mod depth_host;
