@@ -1,6 +1,8 @@
 //! Pipelines that count volumes and turn counts into visibility, one for each combination that came up.
 
-use super::{COUNT_SHADER, RESOLVE_SHADER, options::CounterKind};
+use super::COUNT_SHADER;
+use super::RESOLVE_SHADER;
+use super::options::CounterKind;
 use crate::casters::Edges;
 use crate::fullscreen::{FLOATS, additive, layout, texture};
 use crate::silhouettes::Part;

@@ -2,7 +2,8 @@
 
 use super::plan::Plan;
 use super::select::Selection;
-use super::{VIEW_BASE_SHADER, VIEWS_SHADER};
+use super::VIEW_BASE_SHADER;
+use super::VIEWS_SHADER;
 use crate::casters::Edges;
 use crate::depth_maps::Eye;
 use crate::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout, target_texture};
