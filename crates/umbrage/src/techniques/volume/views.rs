@@ -1,9 +1,9 @@
 //! Pictures of what happens inside: volumes, counts, overdraw, silhouettes, and which casters were kept.
 
-use super::plan::Plan;
-use super::select::Selection;
 use super::VIEW_BASE_SHADER;
 use super::VIEWS_SHADER;
+use super::plan::Plan;
+use super::select::Selection;
 use crate::casters::Edges;
 use crate::depth_maps::Eye;
 use crate::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout, target_texture};
