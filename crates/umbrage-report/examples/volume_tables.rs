@@ -46,9 +46,14 @@ const TABLES: &[Table] = &[
         ways: &["volume", "volume:count=auto", "volume:count=z-fail", "volume:count=z-pass", "volume:count=xor"],
     },
     Table {
-        title: "Sides of parallel light as triangles (GG 9.5.1)",
+        title: "Sides of parallel light that go on without end, as triangles and without dark caps (GG 9.5.1)",
         lights: Lights::Own,
-        ways: &["volume", "volume:parallel=quads"],
+        ways: &[
+            "volume:reach=infinite",
+            "volume:reach=infinite:parallel=quads",
+            "volume:count=z-fail:reach=infinite",
+            "volume:count=z-fail:reach=infinite:parallel=quads",
+        ],
     },
     Table {
         title: "Casters out of the light's reach are left out (GG 9.5.2)",
