@@ -74,7 +74,8 @@ impl Work {
             if caster.flags & Z_FAIL != 0 && has_cap {
                 let chunks = caster.triangle_count.div_ceil(CHUNK);
                 self.chunks.extend(std::iter::repeat_n(number, chunks as usize));
-                self.room[Part::Caps as usize] += caster.triangle_count;
+                let room = &mut self.room[Part::Caps as usize];
+                *room = room.saturating_add(caster.triangle_count);
                 self.triangles += u64::from(caster.triangle_count);
             }
         }

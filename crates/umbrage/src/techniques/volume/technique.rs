@@ -67,41 +67,41 @@ impl Volume {
         }
     }
 
-    /// How parts are drawn; a part comes twice where fronts and backs go apart.
-    fn keys(&self, parts: &[Part]) -> Vec<Key> {
-        let from_eye = if self.options.count == Count::Xor { Test::Parity } else { Test::Pass };
-        let faces: &[Option<wgpu::Face>] = if self.options.two_pass && self.kind == CounterKind::Stencil {
+    /// The sides that each round of drawing leaves out: one round for both, or fronts and then backs.
+    fn rounds(&self) -> &'static [Option<wgpu::Face>] {
+        if self.options.two_pass && self.kind == CounterKind::Stencil {
             &[Some(wgpu::Face::Back), Some(wgpu::Face::Front)]
         } else {
             &[None]
-        };
-        let key = |part, cull| Key {
-            target: self.counter.key,
-            weighted: self.kind == CounterKind::Float,
-            test: if part == Part::PassSides { from_eye } else { Test::Fail },
-            part,
-            cull,
-        };
-        faces.iter().flat_map(|&cull| parts.iter().map(move |&part| key(part, cull))).collect()
+        }
+    }
+
+    /// How a part is drawn in a round.
+    fn key(&self, part: Part, cull: Option<wgpu::Face>) -> Key {
+        let from_eye = if self.options.count == Count::Xor { Test::Parity } else { Test::Pass };
+        let test = if part == Part::PassSides { from_eye } else { Test::Fail };
+        Key { target: self.counter.key, weighted: self.kind == CounterKind::Float, test, part, cull }
     }
 
     /// Counts one light's shadows from `start`, or on top of what was counted; returns the number of draws.
     fn count_volumes(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges, start: Option<i32>) -> u32 {
         let silhouettes = &self.silhouettes;
         silhouettes.record(passes, edges);
-        let parts: Vec<Part> = Part::ALL.into_iter().filter(|part| !silhouettes.is_empty(*part)).collect();
-        let keys = self.keys(&parts);
+        let mut draws = 0;
         let Some(mut pass) = self.counter.begin(passes, view.receivers, start) else { return 0 };
         if let Some([x, y, width, height]) = self.selection.scissor {
             pass.set_scissor_rect(x, y, width, height);
         }
-        for key in &keys {
-            if let Some(pipeline) = self.pipelines.counting(*key) {
-                pass.set_pipeline(pipeline);
-                silhouettes.draw(&mut pass, edges, key.part);
+        for &cull in self.rounds() {
+            for part in Part::ALL.into_iter().filter(|part| !silhouettes.is_empty(*part)) {
+                if let Some(pipeline) = self.pipelines.counting(self.key(part, cull)) {
+                    pass.set_pipeline(pipeline);
+                    silhouettes.draw(&mut pass, edges, part);
+                    draws += 1;
+                }
             }
         }
-        keys.len() as u32
+        draws
     }
 
     fn resolve(&self, passes: &mut Passes<'_>, visibility: &VisibilityTarget) {
@@ -118,9 +118,7 @@ impl Volume {
         }
         pass.draw(0..3, 0..1);
     }
-}
 
-impl Volume {
     fn choose(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<DVec4, Error> {
         if !self.clamps && is_parallel(&view.camera) {
             let what = "parallel projections on this adapter, which lacks DEPTH_CLIP_CONTROL".into();
@@ -145,8 +143,10 @@ impl Volume {
         self.counter.prepare(gpu, view, self.kind, range, own.as_ref(), &self.pipelines.read_counts);
         self.pipelines.prepare_resolve(gpu, self.counter.key, self.options.count == Count::Xor);
         // All that the way of counting may come to, so that none is made when the eye comes into a shadow.
-        for key in self.keys(self.options.count.parts()) {
-            self.pipelines.prepare(gpu, key);
+        for &cull in self.rounds() {
+            for &part in self.options.count.parts() {
+                self.pipelines.prepare(gpu, self.key(part, cull));
+            }
         }
         Ok(())
     }
