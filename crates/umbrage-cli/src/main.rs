@@ -8,6 +8,7 @@ mod failure;
 mod info;
 mod list;
 mod render;
+mod sweep;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -25,6 +26,7 @@ Examples:
   umbrage list                                        techniques, scenes, adapters
   umbrage compare primitives --techniques all -o out  a table, and out/index.html
   umbrage render atrium --technique pcf -o atrium.png
+  umbrage sweep primitives                            error against cost, in out/sweep/index.html
 
 A SCENE is the name of a built-in scene (`primitives`, `atrium:0.25` with its detail) or a file:
 *.scene.toml, *.gltf, *.glb, *.obj. `umbrage COMMAND --help` shows the examples of each command.";
@@ -36,6 +38,7 @@ enum Command {
     Render(render::Render),
     Compare(compare::Compare),
     Bench(bench::Bench),
+    Sweep(sweep::Sweep),
 }
 
 fn main() -> ExitCode {
@@ -49,6 +52,7 @@ fn main() -> ExitCode {
         Command::Render(render) => render.run(),
         Command::Compare(compare) => compare.run(),
         Command::Bench(bench) => bench.run(),
+        Command::Sweep(sweep) => sweep.run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

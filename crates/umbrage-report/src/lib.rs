@@ -1,8 +1,9 @@
 //! Runs scenes × techniques × lights against the ground truth and records what came out.
 //!
 //! [`Compare`] gives errors, times, memory and pictures of every technique as a [`Report`], written as `report.json`
-//! and as one self-contained page; [`Bench`] gives times alone, set against the floor of the same run. Both walk the
-//! registry of `umbrage`: a new technique needs no line here.
+//! and as one self-contained page; [`Bench`] gives times alone, set against the floor of the same run; [`Sweep`] puts both
+//! together over many settings and asks what is best at a cost or an error. All walk the registry of `umbrage`: a new
+//! technique needs no line here.
 
 mod bench;
 mod bench_table;
@@ -24,6 +25,7 @@ mod round;
 mod shot;
 mod source;
 mod spread;
+mod sweep;
 mod table;
 mod truth;
 
@@ -42,6 +44,12 @@ pub use record::Report;
 pub use shot::{Aov, Method, Picture, Shot};
 pub use source::Source;
 pub use spread::Spread;
+pub use sweep::{
+    Sweep, SweepOutcome, Vary,
+    answer::{Answer, BUDGETS, Best, Budget, Level},
+    measures::{MEASURES, Measure},
+    record::{Clock, Skipped, SweepCurve, SweepLight, SweepReport, SweepResult, SweepScene, Yardsticks},
+};
 pub use table::tables;
 pub use truth::{Tracing, Truth};
 

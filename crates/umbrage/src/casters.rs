@@ -4,7 +4,7 @@
 //! scene, so that single precision is enough wherever the scene is. A draw is one mesh with a list of instance
 //! numbers as its per-instance vertex buffer: culling writes that list and nothing else.
 
-use crate::fullscreen::{bind, layout};
+use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{error::Error, gpu::Gpu, shader::shader_struct};
 use std::{ops::Range, sync::OnceLock};
 use umbrage_core::glam::{DAffine3, DVec3, DVec4};
@@ -16,7 +16,7 @@ mod eye_tree;
 mod material;
 mod sides;
 pub(crate) use draw_list::{DrawList, Light, Which};
-pub(crate) use edges::{EDGES_WGSL, Edge, Edges, MeshEdges, STORAGE};
+pub(crate) use edges::{EDGES_WGSL, Edge, Edges, MeshEdges};
 pub(crate) use eye_tree::Sight;
 pub(crate) use material::{MATERIAL_LAYOUT, MATERIALS_WGSL, texture_layout};
 pub(crate) use sides::Sides;

@@ -12,6 +12,12 @@ pub const MAP_VISIBILITY: &str = include_str!("wgsl/map_visibility.wgsl");
 pub const PACK_NORMAL: &str = include_str!("wgsl/pack_normal.wgsl");
 /// `wgsl/map_lookup.wgsl`: group 1, where a receiver lies in the maps of a light. After [`RECEIVERS`].
 pub const MAP_LOOKUP: &str = include_str!("wgsl/map_lookup.wgsl");
+/// `wgsl/light_kernel.wgsl`: the light's surface as a receiver sees it through the map. After [`MAP_LOOKUP`].
+pub const LIGHT_KERNEL: &str = include_str!("wgsl/light_kernel.wgsl");
+/// `wgsl/map_taps.wgsl`: group 2, where filters look. After [`MAP_LOOKUP`].
+pub const MAP_TAPS: &str = include_str!("wgsl/map_taps.wgsl");
+/// `wgsl/soft_taps.wgsl`: group 2, filters that follow the light's size. After [`LIGHT_KERNEL`] and [`MAP_TAPS`].
+pub const SOFT_TAPS: &str = include_str!("wgsl/soft_taps.wgsl");
 
 /// One shader: plain WGSL modules, later ones using names of earlier ones.
 #[derive(Clone, Copy, Debug)]

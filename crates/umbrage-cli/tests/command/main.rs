@@ -5,3 +5,4 @@ mod common;
 mod listing;
 mod pictures;
 mod readme;
+mod sweep;

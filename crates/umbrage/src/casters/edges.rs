@@ -1,7 +1,7 @@
 //! Edges and planes of the meshes on the GPU, for techniques that extrude silhouettes.
 
 use super::{Casters, eye_tree::EyeTree};
-use crate::fullscreen::{bind, layout};
+use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{error::Error, gpu::Gpu, shader::shader_struct};
 use std::sync::OnceLock;
 use umbrage_core::adjacency::{Adjacency, NONE, without_copies};
@@ -118,10 +118,3 @@ impl Edges {
         self.bytes
     }
 }
-
-/// A storage buffer that is only read.
-pub(crate) const STORAGE: wgpu::BindingType = wgpu::BindingType::Buffer {
-    ty: wgpu::BufferBindingType::Storage { read_only: true },
-    has_dynamic_offset: false,
-    min_binding_size: None,
-};

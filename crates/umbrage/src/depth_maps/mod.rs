@@ -1,8 +1,13 @@
 //! Depth maps of a light, for every technique that compares with them: fitted, culled and rendered here, looked up
 //! through `wgsl/map_lookup.wgsl`.
 
+mod bounds;
 mod lookup;
 mod pipelines;
+mod soft;
+mod stage;
+mod taps;
+mod uniforms;
 
 use crate::{
     casters::{self, Casters, DrawList, Which},
@@ -16,9 +21,13 @@ use crate::{
     view::View,
     visibility::VisibilityTarget,
 };
+pub(crate) use bounds::BOUNDS_SHADER;
 use lookup::Lookup;
-pub(crate) use lookup::{Eye, LOOKUP_LAYOUTS};
 use pipelines::Pipelines;
+pub(crate) use soft::TapStage;
+pub(crate) use stage::Stage;
+pub(crate) use taps::{NOISE, TESTS, TILE, Taps};
+pub(crate) use uniforms::{Eye, LOOKUP_LAYOUTS};
 
 /// The shaders that render maps, for the registry's tests.
 pub(crate) const SHADERS: [Shader; 3] = [pipelines::DEPTH_SHADER, pipelines::SECOND_SHADER, pipelines::MIDPOINT_SHADER];
@@ -79,6 +88,7 @@ shader_struct! {
 /// A technique that renders depth maps and looks them up in one full-screen pass; techniques differ in the shader.
 pub(crate) struct MapTechnique {
     maps: DepthMaps,
+    stage: Option<Box<dyn Stage>>,
     lookup: Lookup,
     draws: u32,
 }
@@ -92,9 +102,28 @@ impl MapTechnique {
         reach_texels: f64,
         constants: &[(&'static str, f64)],
     ) -> Result<Self, Error> {
+        Self::staged(gpu, settings, shader, reach_texels, constants, None)
+    }
+
+    /// With a stage between the maps and the look-up, whose bind group is group 2 of the shader.
+    pub(crate) fn staged(
+        gpu: &Gpu,
+        settings: &Settings,
+        shader: &Shader,
+        reach_texels: f64,
+        constants: &[(&'static str, f64)],
+        stage: Option<Box<dyn Stage>>,
+    ) -> Result<Self, Error> {
         let maps = DepthMaps::new(gpu, settings, reach_texels)?;
-        let lookup = Lookup::new(gpu, shader, settings.float("bias"), constants);
-        Ok(Self { maps, lookup, draws: 0 })
+        let more = stage.as_ref().map(|s| s.layout().clone());
+        let lookup = Lookup::new(gpu, shader, settings.float("bias"), constants, more);
+        Ok(Self { maps, stage, lookup, draws: 0 })
+    }
+
+    /// Keeps room around the maps for what hides the light's rim from receivers at their border.
+    pub(crate) fn soft(mut self) -> Self {
+        self.maps.soft = true;
+        self
     }
 
     /// Also draws casters into the maps that can shadow nothing.
@@ -107,15 +136,22 @@ impl MapTechnique {
 impl Technique for MapTechnique {
     fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
         self.maps.prepare(gpu, view)?;
+        if let Some(stage) = &mut self.stage {
+            stage.prepare(gpu, view, &self.maps)?;
+        }
         self.lookup.prepare(gpu, view, &self.maps);
         Ok(())
     }
 
     fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
         visibility.check(view.receivers)?;
-        self.draws = self.maps.record(passes, view.casters);
-        self.lookup.record(passes, view.receivers, visibility);
-        self.draws += 1;
+        self.draws = self.maps.record(passes, view.casters) + 1;
+        let mut more = None;
+        if let Some(stage) = &mut self.stage {
+            self.draws += stage.record(passes, &self.maps);
+            more = stage.bind_group();
+        }
+        self.lookup.record(passes, view.receivers, more, visibility);
         Ok(())
     }
 
@@ -123,7 +159,7 @@ impl Technique for MapTechnique {
         let mut stats = self.maps.stats();
         stats.draws = self.draws;
         stats.triangles += 1;
-        stats.bytes += self.lookup.bytes();
+        stats.bytes += self.lookup.bytes() + self.stage.as_ref().map_or(0, |s| s.bytes());
         stats
     }
 
@@ -134,22 +170,22 @@ impl Technique for MapTechnique {
     fn debug_views(&self) -> Vec<DebugView<'_>> {
         let Some(textures) = &self.maps.textures else { return Vec::new() };
         let texture = textures.result();
-        self.maps
-            .views
-            .iter()
-            .map(|v| DebugView { name: LAYER_NAMES[v.layer as usize % 6], texture, layer: v.layer })
-            .collect()
+        let layers = self.maps.views.iter();
+        let maps = layers.map(|v| DebugView { name: LAYER_NAMES[v.layer as usize % 6], texture, layer: v.layer });
+        maps.chain(self.stage.iter().flat_map(|s| s.debug_views())).collect()
     }
 }
 
 /// Maps of one light.
 pub(crate) struct DepthMaps {
-    size: u32,
+    pub(crate) size: u32,
     midpoint: bool,
     focus: Focus,
     border_texels: f64,
     /// Draws casters too that can shadow nothing: for the baseline.
     every_caster: bool,
+    /// Keeps room for the light's extent.
+    soft: bool,
     pipelines: Pipelines,
     textures: Option<Textures>,
     scene: FitScene,
@@ -177,6 +213,7 @@ impl DepthMaps {
             focus: if settings.choice("focus") == "light" { Focus::Light } else { Focus::Visible },
             border_texels: reach_texels + 1.0,
             every_caster: false,
+            soft: false,
             pipelines: Pipelines::new(gpu, faces == "back", faces == "midpoint"),
             textures: None,
             scene: FitScene::default(),
@@ -192,12 +229,16 @@ impl DepthMaps {
         self.scene.casters.extend(view.casters.casting_bounds());
         self.scene.receivers.clear();
         self.scene.receivers.extend(view.casters.receiving_bounds());
-        let to_fit = Fit { focus: self.focus, size: self.size, border_texels: self.border_texels };
+        let mut to_fit = Fit { focus: self.focus, size: self.size, border_texels: self.border_texels };
         self.views.clear();
         if !view.light.casts || self.scene.casters.is_empty() {
             return Ok(());
         }
         self.is_cube = fit(&view.light.shape, &view.camera, &self.scene, &to_fit, &mut self.views);
+        if self.soft && !self.views.is_empty() {
+            to_fit.border_texels += uniforms::light_border(&view.light.shape, self);
+            self.is_cube = fit(&view.light.shape, &view.camera, &self.scene, &to_fit, &mut self.views);
+        }
         if self.views.is_empty() {
             return Ok(());
         }
@@ -249,6 +290,16 @@ impl DepthMaps {
         let center = view.light.shape.center();
         let light = (center.truncate() - origin).abs().max_element() * center.w;
         self.scene.casters.iter().map(around).fold(light, f64::max)
+    }
+
+    /// The texture that is looked up, once there is one.
+    pub(crate) fn result(&self) -> Option<&wgpu::Texture> {
+        self.textures.as_ref().map(Textures::result)
+    }
+
+    /// True where this frame's views are from a point.
+    pub(crate) fn from_a_point(&self) -> bool {
+        self.views.first().is_some_and(|v| self.is_perspective(v))
     }
 
     /// True for views from a point.

@@ -2,8 +2,8 @@
 
 use super::work::{Buffers, Work};
 use super::{FIND_SHADER, Part, Shape};
-use crate::casters::{Edges, STORAGE};
-use crate::fullscreen::{UNIFORM, layout};
+use crate::casters::Edges;
+use crate::fullscreen::{STORAGE, UNIFORM, layout};
 use crate::shader::shader_struct;
 use crate::{gpu::Gpu, passes::Passes};
 use std::ops::Range;

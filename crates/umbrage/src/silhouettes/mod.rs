@@ -7,8 +7,8 @@
 mod find;
 mod work;
 
-use crate::casters::{EDGES_WGSL, Edge, Edges, INSTANCES_WGSL, Instance, STORAGE};
-use crate::fullscreen::{UNIFORM, layout};
+use crate::casters::{EDGES_WGSL, Edge, Edges, INSTANCES_WGSL, Instance};
+use crate::fullscreen::{STORAGE, UNIFORM, layout};
 use crate::shader::{HostLayout, Shader, shader_struct};
 use crate::{casters::Casters, error::Error, gpu::Gpu, passes::Passes};
 use find::Find;

@@ -12,6 +12,33 @@ struct MapLayer {
     pad_b: f32,
     slope_axis: vec3f,
     pad_c: f32,
+    // How a small way of the receiver's moves its homogeneous texel.
+    texel_right: vec3f,
+    pad_d: f32,
+    texel_down: vec3f,
+    pad_e: f32,
+    texel_w: vec3f,
+    pad_f: f32,
+    // Perspective: the texel straight ahead, and the tangent that a texel spans.
+    axis: vec4f,
+}
+
+// The light as a surface. A round one is the image of the unit ball under its half axes, a flat one has two.
+struct LightExtent {
+    right: vec3f,
+    // 1: round, 0: flat.
+    roundness: f32,
+    up: vec3f,
+    pad_a: f32,
+    ahead: vec3f,
+    pad_b: f32,
+    // Take a direction to where a round light is the unit ball, but for a factor. Of a flat light, the last is its normal.
+    unit_right: vec3f,
+    pad_c: f32,
+    unit_up: vec3f,
+    pad_d: f32,
+    unit_ahead: vec3f,
+    pad_e: f32,
 }
 
 struct MapLookup {
@@ -29,7 +56,16 @@ struct MapLookup {
     bias: f32,
     // How far casters may be off by rounding, metres.
     caster_rounding: f32,
-    pad: f32,
+    // Stored depth of the nearest caster there can be.
+    nearest: f32,
+    light: LightExtent,
+}
+
+// What a pixel shows.
+struct Pixel {
+    at: vec2f,
+    depth: f32,
+    surface: Surface,
 }
 
 struct MapPoint {
@@ -44,6 +80,8 @@ struct MapPoint {
     is_own_shadow: bool,
     // How much the depth may be off by rounding.
     rounding: f32,
+    // One over the distance along the axis of a perspective view, else 1.
+    inverse_w: f32,
     layer: u32,
     is_covered: bool,
 }
@@ -70,13 +108,14 @@ fn face_of_cube(direction: vec3f) -> u32 {
     return select(4u, 5u, direction.z < 0.0);
 }
 
-// For the surface that pixel `at` shows at `depth`.
+// For the surface that a pixel shows.
 //
 // On a plane with normal n stored depth is linear in the texel, in perspective too, since it is near / distance there.
 // With m = (n · right, n · down, n · axis) the plane is m₀ u + m₁ v + m₂ = c · near / depth in perspective, so that its
 // slope is depth · (m₀, m₁) / (m₀ u + m₁ v + m₂); for parallel light it is (m₀, m₁) / m₂.
-fn map_point(at: vec2f, depth: f32, surface: Surface) -> MapPoint {
-    let ndc = ndc_of(map.eye, at, depth);
+fn map_point(pixel: Pixel) -> MapPoint {
+    let surface = pixel.surface;
+    let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
     var point: MapPoint;
     point.layer = 0u;
     if CUBE {
@@ -92,17 +131,20 @@ fn map_point(at: vec2f, depth: f32, surface: Surface) -> MapPoint {
     point.across = dot(surface.normal, map.layers[point.layer].slope_axis);
     var is_in_front = true;
     var eye_inverse_w = inverse_w;
+    point.inverse_w = 1.0;
     if PERSPECTIVE {
         point.across += dot(point.along, point.texel);
         point.along *= point.depth;
-        eye_inverse_w = 1.0 / eye_w(map.eye, ndc);
+        let w = eye_w(map.eye, ndc);
+        eye_inverse_w = 1.0 / w;
+        point.inverse_w = inverse_w * w;
         is_in_front = inverse_w * eye_inverse_w > 0.0;
     }
     point.is_covered = is_in_front && all(point.texel >= vec2f(0.0)) && all(point.texel < vec2f(map.size));
     // Positive where the surface faces the light; 0 where there is no normal or no view.
     point.is_own_shadow = surface.casts && is_in_front && point.across < 0.0;
     let z = abs(point.depth);
-    let metres = position_rounding(map.eye, depth, eye_inverse_w) + map.caster_rounding;
+    let metres = position_rounding(map.eye, pixel.depth, eye_inverse_w) + map.caster_rounding;
     let per_metre = map.per_metre.x * z * z + map.per_metre.y;
     point.rounding = map.rounding.x * z + map.rounding.y + metres * per_metre;
     return point;

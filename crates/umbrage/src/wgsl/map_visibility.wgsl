@@ -1,14 +1,15 @@
 // The full-screen pass of a technique with maps. The technique says which share of a covered point is lit:
-// `fn lit_share(point: MapPoint, at: vec2f) -> f32`, where `at` is the pixel.
+// `fn lit_share(point: MapPoint, pixel: Pixel) -> f32`.
 
 @fragment
 fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
     let depth = textureLoad(receiver_depth, vec2i(at.xy), 0);
-    let point = map_point(at.xy, depth, surface(map.eye, at.xy, depth));
+    let pixel = Pixel(at.xy, depth, surface(map.eye, at.xy, depth));
+    let point = map_point(pixel);
     // Nothing drawn, no view of the light there, or turned away from it. One branch for all three: each costs.
     let is_drawn = depth != map.eye.background_depth;
     if !(is_drawn && point.is_covered) || point.is_own_shadow {
         return select(1.0, 0.0, is_drawn && point.is_own_shadow);
     }
-    return lit_share(point, at.xy);
+    return lit_share(point, pixel);
 }

@@ -1,8 +1,10 @@
 //! Tests that draw: they need a graphics adapter, a software one will do.
 
 mod common;
+mod filters;
 mod golden;
 mod host;
+mod penumbra;
 mod robust;
 mod shared_references;
 mod steady;

@@ -44,13 +44,13 @@ fn disc(point: MapPoint, slope: vec2f, at: vec2f, bias: f32) -> f32 {
     return sum / f32(TAPS);
 }
 
-fn lit_share(point: MapPoint, at: vec2f) -> f32 {
+fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let slope = map_slope(point);
     // A bilinear compare shares one reference depth between texels up to a texel away. For gathers half of that would do on
     // a plane, but wide filters meet curved surfaces: 7×7 then loses 0.05 % of the interior of `primitives`.
     let bias = map_bias(point, slope, 1.0 + CREASE);
     if KERNEL == 0u {
-        return disc(point, slope, at, bias);
+        return disc(point, slope, pixel.at, bias);
     }
     if KERNEL == 2u {
         return textureSampleCompareLevel(map_depth, map_compare, point.texel / map.size, point.layer, point.depth + bias);

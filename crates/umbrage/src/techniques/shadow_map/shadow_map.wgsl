@@ -1,6 +1,6 @@
 // One compare with the nearest texel.
 
-fn lit_share(point: MapPoint, at: vec2f) -> f32 {
+fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let texel = vec2i(point.texel);
     let stored = textureLoad(map_depth, texel, point.layer, 0);
     // Depth was stored at the middle of the texel.

@@ -1,0 +1,150 @@
+//! Which settings of which technique one kind of light is looked at under.
+
+use crate::{
+    choice::{Choice, LIGHT_SAMPLES},
+    error::Error,
+    sweep::{rule, vary::Vary},
+};
+
+/// Settings, each once, and the curves through them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Plan {
+    pub choices: Vec<Choice>,
+    pub curves: Vec<Curve>,
+}
+
+/// Settings that differ in one parameter, in its order.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Curve {
+    pub technique: &'static str,
+    pub parameter: String,
+    /// [`Choice::label`] of each.
+    pub labels: Vec<String>,
+}
+
+impl Plan {
+    /// What `vary` says of the technique of each base; where it says nothing, the built-in rule without what `refused`
+    /// finds impossible here.
+    ///
+    /// # Errors
+    /// Names and values of `vary` that are not known, or not of a technique among the bases.
+    pub(crate) fn new(
+        bases: &[Choice],
+        vary: &[Vary],
+        soft: bool,
+        refused: &dyn Fn(&Choice) -> bool,
+    ) -> Result<Self, Error> {
+        let mut plan = Self::default();
+        for base in bases {
+            let own: Vec<&Vary> = vary.iter().filter(|v| v.technique == base.info.id).collect();
+            if own.is_empty() {
+                let (mut choices, curves) = rule::around(base, soft)?;
+                choices.retain(|choice| choice.label() == base.label() || !refused(choice));
+                plan.add(choices, curves);
+            }
+            for vary in own {
+                let (choices, curves) = product(base, vary)?;
+                plan.add(choices, curves);
+            }
+        }
+        Ok(plan)
+    }
+
+    fn add(&mut self, choices: Vec<Choice>, curves: Vec<Curve>) {
+        for choice in choices {
+            if !self.choices.iter().any(|c| c.label() == choice.label()) {
+                self.choices.push(choice);
+            }
+        }
+        self.curves.extend(curves);
+    }
+}
+
+/// What `--vary` asks for, checked by name.
+///
+/// # Errors
+/// A technique that is not known, with the nearest one, or not among the bases.
+pub(crate) fn check_vary(bases: &[Choice], vary: &[Vary]) -> Result<(), Error> {
+    for Vary { technique, .. } in vary {
+        umbrage::find(technique)?;
+        if !bases.iter().any(|base| base.info.id == technique) {
+            return Err(Error::Name(format!(
+                "--vary {technique}: `{technique}` is not among the techniques asked for"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// All combinations of the values, with curves along the last parameter.
+fn product(base: &Choice, vary: &Vary) -> Result<(Vec<Choice>, Vec<Curve>), Error> {
+    let choices: Vec<Choice> =
+        vary.combinations().iter().map(|set| changed(base, set)).collect::<Result<_, Error>>()?;
+    let Some((parameter, length)) = vary.along().filter(|(_, length)| *length > 1) else {
+        return Ok((choices, Vec::new()));
+    };
+    let curve = |choices: &[Choice]| Curve {
+        technique: base.info.id,
+        parameter: parameter.into(),
+        labels: choices.iter().map(Choice::label).collect(),
+    };
+    let curves = choices.chunks(length).map(curve).collect();
+    Ok((choices, curves))
+}
+
+/// The base with `set` beside or in place of what it has set.
+pub(crate) fn changed(base: &Choice, set: &[(String, String)]) -> Result<Choice, Error> {
+    let own = base.changed().iter().map(|(name, value)| (name.clone(), value.clone()));
+    let points = base.light_samples.map(|n| (LIGHT_SAMPLES.to_string(), n.to_string()));
+    let all: Vec<_> = own.chain(points).chain(set.iter().cloned()).collect();
+    Choice::new(base.info.id, &all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plan(bases: &str, vary: &[&str]) -> Result<Plan, Error> {
+        let bases = Choice::list(&bases.split(' ').map(String::from).collect::<Vec<_>>(), &[])?;
+        let vary = vary.iter().map(|v| Vary::parse(v)).collect::<Result<Vec<_>, _>>()?;
+        check_vary(&bases, &vary)?;
+        Plan::new(&bases, &vary, false, &|_| false)
+    }
+
+    fn labels(plan: &Plan) -> Vec<String> {
+        plan.choices.iter().map(Choice::label).collect()
+    }
+
+    #[test]
+    fn a_product_takes_the_place_of_the_rule_and_keeps_what_is_set() {
+        let plan = plan("shadow-map:faces=back", &["shadow-map:bias=0|2,size=256|512"]).unwrap();
+        let label = |bias, size| format!("shadow-map:bias={bias}:faces=back:size={size}");
+        assert_eq!(labels(&plan), [label(0, 256), label(0, 512), label(2, 256), label(2, 512)]);
+        assert_eq!(plan.curves.len(), 2);
+        assert_eq!((&*plan.curves[1].parameter, &*plan.curves[1].labels), ("size", &labels(&plan)[2..]));
+    }
+
+    #[test]
+    fn settings_come_once() {
+        let plan = plan("none shadow-map shadow-map", &["shadow-map:size=1024|64", "shadow-map:size=64|32"]).unwrap();
+        assert_eq!(labels(&plan), ["none", "shadow-map", "shadow-map:size=64", "shadow-map:size=32"]);
+    }
+
+    #[test]
+    fn what_the_adapter_refuses_is_left_out_of_the_rule_alone() {
+        let bases = [Choice::new("shadow-map", &[]).unwrap()];
+        let refuse = |_: &Choice| true;
+        assert_eq!(labels(&Plan::new(&bases, &[], false, &refuse).unwrap()), ["shadow-map"]);
+        let vary = [Vary::parse("shadow-map:size=64|32").unwrap()];
+        assert_eq!(Plan::new(&bases, &vary, false, &refuse).unwrap().choices.len(), 2);
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        let text = |bases, vary: &str| plan(bases, &[vary]).map(|p| labels(&p)).unwrap_err().to_string();
+        assert!(text("none", "shadowmap:size=1").contains("did you mean `shadow-map`"));
+        assert!(text("none", "shadow-map:size=1").contains("not among"));
+        assert!(text("shadow-map", "shadow-map:siez=1").contains("did you mean `size`"));
+        assert!(text("shadow-map", "shadow-map:size=1|0").contains("1 to"));
+    }
+}
