@@ -17,6 +17,14 @@ pub(crate) struct Fullscreen<'a> {
 
 impl Fullscreen<'_> {
     pub(crate) fn pipeline(&self, gpu: &Gpu) -> wgpu::RenderPipeline {
+        self.with_stencil(gpu, None)
+    }
+
+    pub(crate) fn with_stencil(
+        &self,
+        gpu: &Gpu,
+        depth_stencil: Option<wgpu::DepthStencilState>,
+    ) -> wgpu::RenderPipeline {
         let groups: Vec<_> = self.groups.iter().map(|g| Some(*g)).collect();
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             bind_group_layouts: &groups,
@@ -32,7 +40,7 @@ impl Fullscreen<'_> {
                 buffers: &[],
             },
             primitive: Default::default(),
-            depth_stencil: None,
+            depth_stencil,
             multisample: Default::default(),
             fragment: Some(wgpu::FragmentState {
                 module: self.module,

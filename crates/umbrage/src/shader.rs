@@ -8,6 +8,8 @@ pub const FULLSCREEN: &str = include_str!("wgsl/fullscreen.wgsl");
 pub const RECEIVERS: &str = concat!(include_str!("wgsl/pack_normal.wgsl"), include_str!("wgsl/receivers.wgsl"));
 /// `wgsl/map_visibility.wgsl`: the full-screen pass around a technique's `lit_share`. After [`MAP_LOOKUP`].
 pub const MAP_VISIBILITY: &str = include_str!("wgsl/map_visibility.wgsl");
+/// `wgsl/map_quick.wgsl`: the first of two phases, around a technique's `quick_share`. After [`MAP_VISIBILITY`].
+pub const MAP_QUICK: &str = include_str!("wgsl/map_quick.wgsl");
 /// `wgsl/pack_normal.wgsl`: how a host packs the normals of [`crate::Receivers`], `pack_normal(normal, casts) -> u32`.
 pub const PACK_NORMAL: &str = include_str!("wgsl/pack_normal.wgsl");
 /// `wgsl/map_lookup.wgsl`: group 1, where a receiver lies in the maps of a light. After [`RECEIVERS`].
@@ -16,7 +18,9 @@ pub const MAP_LOOKUP: &str = include_str!("wgsl/map_lookup.wgsl");
 pub const LIGHT_KERNEL: &str = include_str!("wgsl/light_kernel.wgsl");
 /// `wgsl/map_taps.wgsl`: group 2, where filters look. After [`MAP_LOOKUP`].
 pub const MAP_TAPS: &str = include_str!("wgsl/map_taps.wgsl");
-/// `wgsl/soft_taps.wgsl`: group 2, filters that follow the light's size. After [`LIGHT_KERNEL`] and [`MAP_TAPS`].
+/// `wgsl/map_cells.wgsl`: the layout of the pyramid of nearest depths.
+pub const MAP_CELLS: &str = include_str!("wgsl/map_cells.wgsl");
+/// `wgsl/soft_taps.wgsl`: group 2, filters that follow the light's size. After [`LIGHT_KERNEL`], [`MAP_TAPS`] and [`MAP_CELLS`].
 pub const SOFT_TAPS: &str = include_str!("wgsl/soft_taps.wgsl");
 
 /// One shader: plain WGSL modules, later ones using names of earlier ones.

@@ -2,7 +2,9 @@
 
 mod layout;
 
-use super::blue_noise::blue_noise;
+use super::{blue_noise::blue_noise, luminance::Luminance, points::square_to_disc};
+use crate::material::Texture;
+use glam::DVec2;
 use layout::{evenly_spread, jittered};
 
 #[cfg(test)]
@@ -83,6 +85,36 @@ impl TapTable {
         };
         let offsets = (0..sets).flat_map(set).map(|tap| tap.map(|x| x as f32)).collect();
         Self { tile, sets, taps, set_of_pixel, offsets }
+    }
+
+    /// One set for all pixels: the middles of a grid of `side` × `side` equal cells over `domain`, row by row; a segment gets
+    /// as many points along its length. `side` is at least 1.
+    pub fn grid(domain: Domain, side: u32) -> Self {
+        let side = side.max(1);
+        let taps = side * side;
+        let middle = |i: u32, n: u32| (f64::from(i) + 0.5) / f64::from(n);
+        let tap = |i: u32| {
+            let square = DVec2::new(middle(i % side, side), middle(i / side, side));
+            match domain {
+                Domain::Disc => square_to_disc(square),
+                Domain::Square => square * 2.0 - 1.0,
+                Domain::Segment => DVec2::new(middle(i, taps) * 2.0 - 1.0, 0.0),
+            }
+        };
+        let offsets = (0..taps).map(|i| tap(i).as_vec2().to_array()).collect();
+        Self { tile: 1, sets: 1, taps, set_of_pixel: vec![0], offsets }
+    }
+
+    /// The taps of a square as dense as `texture` is bright; x runs along a row, y up from its last row. Nothing changes
+    /// where nothing of it is bright.
+    pub fn weighted_by(mut self, texture: &Texture) -> Self {
+        let Some(luminance) = Luminance::of(texture) else { return self };
+        for tap in &mut self.offsets {
+            let [x, y] = tap.map(f64::from);
+            let moved = luminance.sample(DVec2::new(x * 0.5 + 0.5, 0.5 - y * 0.5));
+            *tap = [(moved.x * 2.0 - 1.0) as f32, (1.0 - moved.y * 2.0) as f32];
+        }
+        self
     }
 
     /// The taps of one set; `index` is below `sets`.

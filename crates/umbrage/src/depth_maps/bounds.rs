@@ -1,48 +1,110 @@
-//! Nearest and farthest depth of ever larger parts of a map: what lets soft filters skip what is surely lit or dark, and
-//! look for blockers only as far as there can be some.
+//! Nearest depths of ever larger parts of a map: what lets soft filters skip what is surely lit, and look for blockers
+//! only as far as there can be some.
 
 use super::DepthMaps;
-use crate::fullscreen::{self, FLOATS, Fullscreen, attachment, bind, layout};
-use crate::shader::{FULLSCREEN, Shader};
+use crate::fullscreen::{STORAGE, UNIFORM, bind, layout};
+use crate::shader::{MAP_CELLS, Shader, shader_struct};
 use crate::{gpu::Gpu, passes::Passes};
 
-/// Makes one level of the pyramid.
-pub(crate) const BOUNDS_SHADER: Shader =
-    Shader { name: "map bounds", parts: &[FULLSCREEN, include_str!("../wgsl/map_bounds.wgsl")], layouts: &[] };
+/// Makes the pyramid, level by level.
+pub(crate) const BOUNDS_SHADER: Shader = Shader {
+    name: "map bounds",
+    parts: &[MAP_CELLS, include_str!("../wgsl/map_bounds.wgsl")],
+    layouts: &[MapBoundsHead::LAYOUT, MapBoundsPass::LAYOUT],
+};
 
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Float;
+/// Most cells a side of the finest level: larger maps have wider cells.
+const MOST_CELLS: u32 = 1024;
 
-/// The pyramid over all layers of a light's maps; a cell of its level n stands for 4 · 2ⁿ texels a side.
+/// Base 2 logarithm of the texels across a cell of the finest level, at least.
+const FINEST: u32 = 2;
+
+/// Threads of a workgroup a side.
+const WORKGROUP: u32 = 8;
+
+shader_struct! {
+    /// See `wgsl/map_cells.wgsl`.
+    pub(crate) struct MapBoundsHead {
+        cells: u32,
+        finest: u32,
+        levels: u32,
+        pad: u32,
+    }
+}
+
+shader_struct! {
+    /// See `wgsl/map_bounds.wgsl`.
+    pub(crate) struct MapBoundsPass {
+        layer: u32,
+        level: u32,
+    }
+}
+
+impl MapBoundsHead {
+    /// For maps of this size in texels.
+    fn of(size: u32) -> Self {
+        let side = size.next_power_of_two();
+        let finest = FINEST.max(side.div_ceil(MOST_CELLS).ilog2());
+        let cells = (side >> finest).max(1);
+        Self { cells, finest, levels: cells.ilog2() + 1, pad: 0 }
+    }
+
+    /// Cells of all levels of a layer.
+    fn in_layer(&self) -> u64 {
+        (4 * u64::from(self.cells).pow(2) - 1) / 3
+    }
+}
+
+/// The pyramid over all layers of a light's maps.
 pub(crate) struct BoundsPyramid {
-    of_map: (wgpu::BindGroupLayout, wgpu::RenderPipeline),
-    of_bounds: (wgpu::BindGroupLayout, wgpu::RenderPipeline),
+    layout: wgpu::BindGroupLayout,
+    of_map: wgpu::ComputePipeline,
+    of_bounds: wgpu::ComputePipeline,
     made: Option<Made>,
 }
 
 struct Made {
     /// The maps it was made for.
     maps: wgpu::Texture,
-    texture: wgpu::Texture,
-    whole: wgpu::TextureView,
-    /// For each layer, its levels from the finest: what is read and what is drawn.
-    layers: Vec<Vec<(wgpu::BindGroup, wgpu::TextureView)>>,
+    head: MapBoundsHead,
+    buffer: wgpu::Buffer,
+    /// For each layer, its levels from the finest.
+    layers: Vec<Vec<wgpu::BindGroup>>,
 }
 
 impl BoundsPyramid {
     pub(crate) fn new(gpu: &Gpu) -> Self {
-        let module = BOUNDS_SHADER.module(gpu);
-        let pass = |entry, sample_type| {
-            let reads = layout(gpu, entry, wgpu::ShaderStages::FRAGMENT, &[fullscreen::texture(sample_type)]);
-            let target = FORMAT.into();
-            let groups = &[&reads];
-            let recipe = Fullscreen { label: entry, module: &module, entry, groups, target, constants: &[] };
-            let pipeline = recipe.pipeline(gpu);
-            (reads, pipeline)
+        let maps = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Depth,
+            view_dimension: wgpu::TextureViewDimension::D2Array,
+            multisampled: false,
         };
-        let of_map = pass("bounds_of_map", wgpu::TextureSampleType::Depth);
-        let of_bounds = pass("bounds_of_bounds", FLOATS);
-        Self { of_map, of_bounds, made: None }
+        let written = wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: false },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        let layout = layout(gpu, "map bounds", wgpu::ShaderStages::COMPUTE, &[maps, written, UNIFORM]);
+        let module = BOUNDS_SHADER.module(gpu);
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            bind_group_layouts: &[Some(&layout)],
+            ..Default::default()
+        });
+        let pipeline = |entry| {
+            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(entry),
+                layout: Some(&pipeline_layout),
+                module: &module,
+                entry_point: Some(entry),
+                compilation_options: Default::default(),
+                cache: None,
+            })
+        };
+        Self { of_map: pipeline("bounds_of_map"), of_bounds: pipeline("bounds_of_bounds"), layout, made: None }
     }
+
+    /// What the look-up binds.
+    pub(crate) const BINDING: wgpu::BindingType = STORAGE;
 
     /// Makes room for the pyramid of these maps; true where that is new.
     pub(crate) fn prepare(&mut self, gpu: &Gpu, maps: &wgpu::Texture) -> bool {
@@ -53,82 +115,49 @@ impl BoundsPyramid {
         true
     }
 
-    /// All of it, an array with mip levels.
-    pub(crate) fn view(&self) -> Option<&wgpu::TextureView> {
-        self.made.as_ref().map(|m| &m.whole)
+    pub(crate) fn buffer(&self) -> Option<&wgpu::Buffer> {
+        self.made.as_ref().map(|m| &m.buffer)
     }
 
-    /// Fills the layers that were rendered; returns the number of draws.
-    pub(crate) fn record(&self, passes: &mut Passes<'_>, maps: &DepthMaps) -> u32 {
-        let Some(made) = &self.made else { return 0 };
-        let mut draws = 0;
-        for view in &maps.views {
-            for (level, (reads, target)) in made.layers[view.layer as usize].iter().enumerate() {
-                let color = attachment(target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));
-                let mut pass = passes.render("map bounds", &[color], None);
-                pass.set_pipeline(if level == 0 { &self.of_map.1 } else { &self.of_bounds.1 });
-                pass.set_bind_group(0, reads, &[]);
-                pass.draw(0..3, 0..1);
-                draws += 1;
+    /// Fills the layers that were rendered.
+    pub(crate) fn record(&self, passes: &mut Passes<'_>, maps: &DepthMaps) {
+        let Some(made) = &self.made else { return };
+        let mut pass = passes.compute("map bounds");
+        for level in 0..made.head.levels {
+            pass.set_pipeline(if level == 0 { &self.of_map } else { &self.of_bounds });
+            let groups = (made.head.cells >> level).div_ceil(WORKGROUP);
+            for view in &maps.views {
+                pass.set_bind_group(0, &made.layers[view.layer as usize][level as usize], &[]);
+                pass.dispatch_workgroups(groups, groups, 1);
             }
         }
-        draws
     }
 
     pub(crate) fn bytes(&self) -> u64 {
-        let texels =
-            |t: &wgpu::Texture| u64::from(t.width()) * u64::from(t.height()) * u64::from(t.depth_or_array_layers());
-        // A pyramid of quarters is a third larger than its base.
-        self.made.as_ref().map_or(0, |m| texels(&m.texture) * 8 * 4 / 3)
+        self.made.as_ref().map_or(0, |m| m.buffer.size())
     }
 
     fn make(&self, gpu: &Gpu, maps: &wgpu::Texture) -> Made {
-        // A power of two, so that each cell has four whole ones below.
-        let size = maps.width().div_ceil(4).next_power_of_two();
+        let head = MapBoundsHead::of(maps.width());
         let count = maps.depth_or_array_layers();
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("map bounds"),
-            size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: count },
-            mip_level_count: size.ilog2() + 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
+            size: size_of::<MapBoundsHead>() as u64 + 4 * head.in_layer() * u64::from(count),
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
         });
-        let whole = texture.create_view(&wgpu::TextureViewDescriptor {
+        gpu.queue.write_buffer(&buffer, 0, bytemuck::bytes_of(&head));
+        let view = maps.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()
         });
-        let layers = (0..count).map(|layer| self.levels(gpu, maps, &texture, layer)).collect();
-        Made { maps: maps.clone(), texture, whole, layers }
-    }
-
-    fn levels(
-        &self,
-        gpu: &Gpu,
-        maps: &wgpu::Texture,
-        texture: &wgpu::Texture,
-        layer: u32,
-    ) -> Vec<(wgpu::BindGroup, wgpu::TextureView)> {
-        let one = |texture: &wgpu::Texture, level| {
-            texture.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(wgpu::TextureViewDimension::D2),
-                base_mip_level: level,
-                mip_level_count: Some(1),
-                base_array_layer: layer,
-                array_layer_count: Some(1),
-                ..Default::default()
-            })
+        let one = |layer, level| {
+            let uniform = gpu.buffer("level", &[MapBoundsPass { layer, level }], wgpu::BufferUsages::UNIFORM);
+            let resources =
+                [wgpu::BindingResource::TextureView(&view), buffer.as_entire_binding(), uniform.as_entire_binding()];
+            bind(gpu, "map bounds", &self.layout, &resources)
         };
-        let level = |level: u32| {
-            let (reads, below) = match level.checked_sub(1) {
-                None => (&self.of_map.0, one(maps, 0)),
-                Some(finer) => (&self.of_bounds.0, one(texture, finer)),
-            };
-            let reads = bind(gpu, "map bounds", reads, &[wgpu::BindingResource::TextureView(&below)]);
-            (reads, one(texture, level))
-        };
-        (0..texture.mip_level_count()).map(level).collect()
+        let layers = (0..count).map(|layer| (0..head.levels).map(|level| one(layer, level)).collect()).collect();
+        Made { maps: maps.clone(), head, buffer, layers }
     }
 }

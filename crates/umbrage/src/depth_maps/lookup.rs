@@ -1,6 +1,7 @@
 //! The full-screen pass that compares receivers with the maps.
 
 use super::DepthMaps;
+use super::phases::{OpenPixels, Phase};
 use super::uniforms::MapLookup;
 use crate::{
     fullscreen::{Fullscreen, UNIFORM, bind, layout},
@@ -11,6 +12,7 @@ use crate::{
     view::View,
     visibility::VisibilityTarget,
 };
+use umbrage_core::LightShape;
 
 /// Pipelines (one for each combination that came up) and the uniforms of the pass.
 pub(crate) struct Lookup {
@@ -20,7 +22,10 @@ pub(crate) struct Lookup {
     layout: wgpu::BindGroupLayout,
     /// Layout of what the technique binds besides, as group 2.
     more: Option<wgpu::BindGroupLayout>,
-    pipelines: Vec<(Variant, wgpu::RenderPipeline)>,
+    /// One for each phase; one alone where there are no phases.
+    pipelines: Vec<(Variant, Vec<wgpu::RenderPipeline>)>,
+    /// For a technique with a quick phase.
+    open: Option<OpenPixels>,
     uniforms: wgpu::Buffer,
     data: MapLookup,
     sampler: wgpu::Sampler,
@@ -31,6 +36,8 @@ pub(crate) struct Lookup {
 /// What a pipeline is made for.
 #[derive(Clone, Copy, PartialEq)]
 struct Variant {
+    /// The light is a ball of some kind, which turns the same side to all.
+    round: bool,
     perspective: bool,
     cube: bool,
     has_normals: bool,
@@ -51,6 +58,7 @@ impl Lookup {
             layout: lookup_layout(gpu),
             more,
             pipelines: Vec::new(),
+            open: None,
             uniforms: gpu.buffer(
                 "map lookup",
                 &[MapLookup::default()],
@@ -69,17 +77,26 @@ impl Lookup {
         }
     }
 
+    /// Looks up in two phases; the shader has a `quick_share`, see `wgsl/map_quick.wgsl`.
+    pub(super) fn in_phases(&mut self) {
+        self.open = Some(OpenPixels::default());
+    }
+
     pub(crate) fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &DepthMaps) {
         self.current = None;
         let Some(textures) = maps.textures.as_ref().filter(|_| !maps.views.is_empty()) else { return };
         self.data = MapLookup::new(view, maps, self.bias);
         let perspective = maps.from_a_point();
-        let variant = Variant { perspective, cube: maps.is_cube, has_normals: view.receivers.has_normals };
+        let round = matches!(view.light.shape, LightShape::Sphere { .. } | LightShape::Ellipsoid { .. });
+        let variant = Variant { round, perspective, cube: maps.is_cube, has_normals: view.receivers.has_normals };
         let known = self.pipelines.iter().position(|(v, _)| *v == variant);
         self.current = Some(known.unwrap_or_else(|| {
-            self.pipelines.push((variant, self.pipeline(gpu, variant)));
+            self.pipelines.push((variant, self.pipelines_of(gpu, variant)));
             self.pipelines.len() - 1
         }));
+        if let Some(open) = &mut self.open {
+            open.prepare(gpu, view.receivers.size);
+        }
         if self.bind_group.as_ref().is_none_or(|(t, _)| t != textures.result()) {
             self.bind_group = Some((textures.result().clone(), self.bind(gpu, textures.result())));
         }
@@ -94,25 +111,37 @@ impl Lookup {
         visibility: &VisibilityTarget,
     ) {
         passes.upload(&self.uniforms, bytemuck::bytes_of(&self.data));
-        let mut pass = passes.render("visibility", &[visibility.overwrite()], None);
+        let open = self.open.as_ref().filter(|_| self.current.is_some()).and_then(OpenPixels::attachment);
+        let mut pass = passes.render("visibility", &[visibility.overwrite()], open);
         if let (Some(current), Some((_, bind_group))) = (self.current, &self.bind_group) {
-            pass.set_pipeline(&self.pipelines[current].1);
             pass.set_bind_group(0, &receivers.bind_group, &[]);
             pass.set_bind_group(1, bind_group, &[]);
             if more.is_some() {
                 pass.set_bind_group(2, more, &[]);
             }
-            pass.draw(0..3, 0..1);
+            for (pipeline, phase) in self.pipelines[current].1.iter().zip(Phase::BOTH) {
+                pass.set_pipeline(pipeline);
+                pass.set_stencil_reference(phase.reference());
+                pass.draw(0..3, 0..1);
+            }
         }
     }
 
     pub(crate) fn bytes(&self) -> u64 {
-        self.uniforms.size()
+        self.uniforms.size() + self.open.as_ref().map_or(0, OpenPixels::bytes)
     }
 
-    fn pipeline(&self, gpu: &Gpu, variant: Variant) -> wgpu::RenderPipeline {
+    fn pipelines_of(&self, gpu: &Gpu, variant: Variant) -> Vec<wgpu::RenderPipeline> {
+        match self.open {
+            Some(_) => Phase::BOTH.map(|phase| self.pipeline(gpu, variant, Some(phase))).into(),
+            None => vec![self.pipeline(gpu, variant, None)],
+        }
+    }
+
+    fn pipeline(&self, gpu: &Gpu, variant: Variant, phase: Option<Phase>) -> wgpu::RenderPipeline {
         let mut constants = self.constants.clone();
         let on = |switch: bool| if switch { 1.0 } else { 0.0 };
+        constants.push(("ROUND", on(variant.round)));
         constants.push(("PERSPECTIVE", on(variant.perspective)));
         constants.push(("CUBE", on(variant.cube)));
         constants.push(("HAS_NORMALS", on(variant.has_normals)));
@@ -121,12 +150,12 @@ impl Lookup {
         Fullscreen {
             label: "map lookup",
             module: &self.module,
-            entry: "visibility",
+            entry: phase.map_or("visibility", Phase::entry),
             groups: &groups,
             target: VisibilityTarget::FORMAT.into(),
             constants: &constants,
         }
-        .pipeline(gpu)
+        .with_stencil(gpu, phase.map(Phase::state))
     }
 
     fn bind(&self, gpu: &Gpu, maps: &wgpu::Texture) -> wgpu::BindGroup {

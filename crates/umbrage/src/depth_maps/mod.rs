@@ -3,6 +3,7 @@
 
 mod bounds;
 mod lookup;
+mod phases;
 mod pipelines;
 mod soft;
 mod stage;
@@ -26,8 +27,8 @@ use lookup::Lookup;
 use pipelines::Pipelines;
 pub(crate) use soft::TapStage;
 pub(crate) use stage::Stage;
-pub(crate) use taps::{NOISE, TESTS, TILE, Taps};
-pub(crate) use uniforms::{Eye, LOOKUP_LAYOUTS};
+pub(crate) use taps::{GRADIENT_NOISE, NOISE, TESTS, TILE, Taps};
+pub(crate) use uniforms::{Eye, LOOKUP_LAYOUTS, TAP_LAYOUTS};
 
 /// The shaders that render maps, for the registry's tests.
 pub(crate) const SHADERS: [Shader; 3] = [pipelines::DEPTH_SHADER, pipelines::SECOND_SHADER, pipelines::MIDPOINT_SHADER];
@@ -118,6 +119,12 @@ impl MapTechnique {
         let more = stage.as_ref().map(|s| s.layout().clone());
         let lookup = Lookup::new(gpu, shader, settings.float("bias"), constants, more);
         Ok(Self { maps, stage, lookup, draws: 0 })
+    }
+
+    /// Looks up in two phases, see `wgsl/map_quick.wgsl`.
+    pub(crate) fn in_phases(mut self) -> Self {
+        self.lookup.in_phases();
+        self
     }
 
     /// Keeps room around the maps for what hides the light's rim from receivers at their border.

@@ -1,7 +1,7 @@
 //! What filters that follow the light's size bind besides the maps: taps for search and filter, and bounds of depth.
 
 use super::bounds::BoundsPyramid;
-use super::taps::{Taps, domain_of};
+use super::taps::{Shape, Taps};
 use super::{DepthMaps, Stage};
 use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
@@ -10,6 +10,8 @@ use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
 pub(crate) struct TapStage {
     taps: Taps,
     bounds: Option<BoundsPyramid>,
+    /// The look-up reads the bounds, so that they have to be filled.
+    reads_bounds: bool,
     /// Taps fill the light's shape, else always a disc.
     follows_light: bool,
     layout: wgpu::BindGroupLayout,
@@ -20,19 +22,14 @@ impl TapStage {
     /// For a filter of one width all around.
     pub(crate) fn disc(gpu: &Gpu, taps: Taps) -> Self {
         let layout = layout(gpu, "taps", wgpu::ShaderStages::FRAGMENT, &[STORAGE]);
-        Self { taps, bounds: None, follows_light: false, layout, bind_group: None }
+        Self { taps, bounds: None, reads_bounds: false, follows_light: false, layout, bind_group: None }
     }
 
     /// For a filter that follows the light.
-    pub(crate) fn light(gpu: &Gpu, taps: Taps) -> Self {
-        let bounds = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: false },
-            view_dimension: wgpu::TextureViewDimension::D2Array,
-            multisampled: false,
-        };
-        let layout = layout(gpu, "taps and bounds", wgpu::ShaderStages::FRAGMENT, &[STORAGE, bounds]);
+    pub(crate) fn light(gpu: &Gpu, taps: Taps, reads_bounds: bool) -> Self {
+        let layout = layout(gpu, "taps and bounds", wgpu::ShaderStages::FRAGMENT, &[STORAGE, BoundsPyramid::BINDING]);
         let bounds = Some(BoundsPyramid::new(gpu));
-        Self { taps, bounds, follows_light: true, layout, bind_group: None }
+        Self { taps, bounds, reads_bounds, follows_light: true, layout, bind_group: None }
     }
 }
 
@@ -43,14 +40,13 @@ impl Stage for TapStage {
 
     fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &DepthMaps) -> Result<(), Error> {
         let Some(texture) = maps.result() else { return Ok(()) };
-        let domain =
-            if self.follows_light { domain_of(&view.light.shape) } else { umbrage_core::sampling::Domain::Disc };
+        let shape = if self.follows_light { Shape::of(&view.light.shape) } else { Shape::DISC };
         let is_new = self.bounds.as_mut().is_some_and(|b| b.prepare(gpu, texture));
-        let buffer = self.taps.buffer(gpu, domain);
+        let buffer = self.taps.buffer(gpu, shape, view.textures);
         if is_new || self.bind_group.as_ref().is_none_or(|(b, _)| b != buffer) {
             let mut resources = vec![buffer.as_entire_binding()];
-            let pyramid = self.bounds.as_ref().and_then(BoundsPyramid::view);
-            resources.extend(pyramid.map(wgpu::BindingResource::TextureView));
+            let pyramid = self.bounds.as_ref().and_then(BoundsPyramid::buffer);
+            resources.extend(pyramid.map(wgpu::Buffer::as_entire_binding));
             let bind_group = bind(gpu, "taps", &self.layout, &resources);
             self.bind_group = Some((buffer.clone(), bind_group));
         }
@@ -58,7 +54,10 @@ impl Stage for TapStage {
     }
 
     fn record(&mut self, passes: &mut Passes<'_>, maps: &DepthMaps) -> u32 {
-        self.bounds.as_ref().map_or(0, |b| b.record(passes, maps))
+        if let Some(bounds) = self.bounds.as_ref().filter(|_| self.reads_bounds) {
+            bounds.record(passes, maps);
+        }
+        0
     }
 
     fn bind_group(&self) -> Option<&wgpu::BindGroup> {

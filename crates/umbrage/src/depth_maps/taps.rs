@@ -3,8 +3,8 @@
 use crate::gpu::Gpu;
 use crate::params::{Param, ParamKind, Settings};
 use crate::shader::shader_struct;
-use umbrage_core::LightShape;
 use umbrage_core::sampling::{Domain, Pattern, TapTable};
+use umbrage_core::{LightShape, Texture};
 
 /// `noise`: shared by all techniques with taps.
 pub(crate) const NOISE: Param = Param {
@@ -14,6 +14,10 @@ pub(crate) const NOISE: Param = Param {
     unit: "",
     kind: ParamKind::Choice { values: &["stratified", "blue", "gradient", "none"] },
 };
+
+/// `noise` with what leaves the least error first.
+pub(crate) const GRADIENT_NOISE: Param =
+    Param { kind: ParamKind::Choice { values: &["gradient", "stratified", "blue", "none"] }, ..NOISE };
 
 /// `tile`: shared by all techniques with taps.
 pub(crate) const TILE: Param = Param {
@@ -41,12 +45,13 @@ shader_struct! {
 
 /// Taps for one kind of light.
 pub(crate) struct Taps {
-    pattern: Pattern,
+    /// `None` for grids.
+    pattern: Option<Pattern>,
     tile: u32,
     /// Taps of the search for blockers, before those of the filter.
     search: u32,
     filter: u32,
-    made: Option<(Domain, wgpu::Buffer)>,
+    made: Option<(Shape, wgpu::Buffer)>,
 }
 
 impl Taps {
@@ -58,13 +63,19 @@ impl Taps {
             "none" => Pattern::Fixed,
             _ => Pattern::Stratified,
         };
+        let pattern = Some(pattern);
         Self { pattern, tile: settings.int("tile") as u32, search, filter, made: None }
     }
 
-    /// The table for taps in `domain`, made anew where that is another than before.
-    pub(crate) fn buffer(&mut self, gpu: &Gpu, domain: Domain) -> &wgpu::Buffer {
-        let known = self.made.take().filter(|(d, _)| *d == domain);
-        let made = known.unwrap_or_else(|| (domain, self.make(gpu, domain)));
+    /// Grids of so many taps a side, the same for all pixels.
+    pub(crate) fn grids(search: u32, filter: u32) -> Self {
+        Self { pattern: None, tile: 1, search: search * search, filter: filter * filter, made: None }
+    }
+
+    /// The table for `shape`, made anew where that is another than before. `textures` are the scene's.
+    pub(crate) fn buffer(&mut self, gpu: &Gpu, shape: Shape, textures: &[Texture]) -> &wgpu::Buffer {
+        let known = self.made.take().filter(|(s, _)| *s == shape);
+        let made = known.unwrap_or_else(|| (shape, self.make(gpu, shape, textures)));
         &self.made.insert(made).1
     }
 
@@ -72,11 +83,21 @@ impl Taps {
         self.made.as_ref().map_or(0, |(_, buffer)| buffer.size())
     }
 
-    fn make(&self, gpu: &Gpu, domain: Domain) -> wgpu::Buffer {
-        let table = |count| TapTable::new(self.pattern, domain, count, TESTS, self.tile);
+    fn make(&self, gpu: &Gpu, shape: Shape, textures: &[Texture]) -> wgpu::Buffer {
+        let Shape { domain, texture } = shape;
+        let table = |count: u32| {
+            let even = match self.pattern {
+                Some(pattern) => TapTable::new(pattern, domain, count, TESTS, self.tile),
+                None => TapTable::grid(domain, count.isqrt()),
+            };
+            match texture.and_then(|i| textures.get(i)) {
+                Some(texture) => even.weighted_by(texture),
+                None => even,
+            }
+        };
         let filter = table(self.filter);
         let search = (self.search > 0).then(|| table(self.search));
-        let tile = if self.pattern == Pattern::Gradient { 0 } else { filter.tile };
+        let tile = if self.pattern == Some(Pattern::Gradient) { 0 } else { filter.tile };
         let count = self.search + self.filter;
         let head = TapsHead { tile, sets: filter.sets, count, is_square: u32::from(domain == Domain::Square) };
         let mut set_of_pixel = filter.set_of_pixel.clone();
@@ -94,11 +115,24 @@ impl Taps {
     }
 }
 
-/// What the taps of a light fill, in units of its half axes.
-pub(crate) fn domain_of(light: &LightShape) -> Domain {
-    match light {
-        LightShape::Rect { .. } => Domain::Square,
-        LightShape::Line { .. } => Domain::Segment,
-        _ => Domain::Disc,
+/// What taps fill, in units of a light's half axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Shape {
+    domain: Domain,
+    /// Index into the scene's textures: what a light shows, weighting its points.
+    texture: Option<usize>,
+}
+
+impl Shape {
+    /// For filters of one width all around.
+    pub(crate) const DISC: Self = Self { domain: Domain::Disc, texture: None };
+
+    /// For filters that follow the light.
+    pub(crate) fn of(light: &LightShape) -> Self {
+        match *light {
+            LightShape::Rect { texture, .. } => Self { domain: Domain::Square, texture },
+            LightShape::Line { .. } => Self { domain: Domain::Segment, texture: None },
+            _ => Self::DISC,
+        }
     }
 }

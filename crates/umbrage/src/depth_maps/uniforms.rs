@@ -39,7 +39,7 @@ shader_struct! {
     /// The light as a surface, see `wgsl/map_lookup.wgsl`.
     pub(crate) struct LightExtent {
         right: [f32; 3],
-        roundness: f32,
+        pad: f32,
         up: [f32; 3],
         pad_a: f32,
         ahead: [f32; 3],
@@ -72,6 +72,10 @@ shader_struct! {
 /// Host structs of a lookup shader.
 pub(crate) const LOOKUP_LAYOUTS: &[crate::shader::HostLayout] =
     &[Eye::LAYOUT, MapLayer::LAYOUT, LightExtent::LAYOUT, MapLookup::LAYOUT];
+
+/// Host structs of a lookup shader with taps.
+pub(crate) const TAP_LAYOUTS: &[crate::shader::HostLayout] =
+    &[Eye::LAYOUT, MapLayer::LAYOUT, LightExtent::LAYOUT, MapLookup::LAYOUT, super::taps::TapsHead::LAYOUT];
 
 impl Eye {
     /// For the camera and size of `view`.
@@ -137,7 +141,7 @@ impl MapLayer {
     }
 }
 
-/// Of a perspective view: the texel straight ahead, and the tangent that a texel spans.
+/// Of a perspective view the texel straight ahead and the tangent that a texel spans, of a parallel one the metres it spans.
 fn axis(map_from_world: &DMat4) -> DVec4 {
     let [across, down, ahead] = [0, 1, 3].map(|i| map_from_world.row(i).truncate());
     let straight = DVec2::new(across.dot(ahead), down.dot(ahead));
@@ -152,9 +156,10 @@ impl LightExtent {
     fn of(shape: &LightShape) -> Self {
         match *shape {
             LightShape::Point { .. } | LightShape::Spot { .. } => Self::round(DMat3::IDENTITY, DVec3::ZERO),
-            LightShape::Directional { angle_deg, .. } => {
+            LightShape::Directional { direction, angle_deg } => {
                 let tangent = (angle_deg * 0.5).to_radians().clamp(0.0, 1.5).tan();
-                Self::round(DMat3::IDENTITY, DVec3::splat(tangent))
+                let (right, up) = direction.any_orthonormal_pair();
+                Self::flat(right * tangent, up * tangent, direction)
             }
             LightShape::Sphere { radius, .. } => Self::round(DMat3::IDENTITY, DVec3::splat(radius)),
             LightShape::Ellipsoid { radii, rotation, .. } => Self::round(rotation, radii),
@@ -179,7 +184,6 @@ impl LightExtent {
             right: axis(0),
             up: axis(1),
             ahead: axis(2),
-            roundness: 1.0,
             unit_right: unit(0),
             unit_up: unit(1),
             unit_ahead: unit(2),

@@ -32,7 +32,7 @@ fn light_kernel(point: MapPoint, pixel: Pixel) -> LightKernel {
     var right = map.light.right;
     var up = map.light.up;
     var normal = map.light.unit_ahead;
-    if map.light.roundness > 0.0 {
+    if ROUND {
         // The disc across the way, in the space where the light is a ball.
         let unit = normalize(vec3f(dot(way, map.light.unit_right), dot(way, map.light.unit_up), dot(way, map.light.unit_ahead)));
         let a = any_perpendicular(unit);
@@ -84,4 +84,9 @@ fn reach_of(point: MapPoint, kernel: LightKernel, offset: vec2f, stored: f32) ->
 
 fn is_above_horizon(kernel: LightKernel, at: vec2f) -> bool {
     return kernel.horizon.x + dot(kernel.horizon.yz, at) > 0.0;
+}
+
+// Whether the receiver's plane may cut the light.
+fn is_cut_by_horizon(kernel: LightKernel) -> bool {
+    return kernel.horizon.x < abs(kernel.horizon.y) + abs(kernel.horizon.z);
 }

@@ -1,28 +1,40 @@
-// The bounds pyramid: nearest and farthest depth of ever larger cells of a map. Cells that lie beyond the map repeat its border.
+// Nearest depths of ever larger cells of a map: level 0 from the map, each further one from 2 × 2 cells of the one before. Cells that
+// lie beyond the map repeat its border.
 
-@group(0) @binding(0) var map_level: texture_depth_2d;
-@group(0) @binding(0) var below: texture_2d<f32>;
-
-// Of 4 × 4 texels.
-@fragment
-fn bounds_of_map(@builtin(position) position: vec4f) -> @location(0) vec2f {
-    let first = vec2i(position.xy) * 4;
-    let last = vec2i(textureDimensions(map_level)) - 1;
-    var bounds = vec2f(0.0, 1e9);
-    for (var i = 0; i < 16; i++) {
-        let depth = textureLoad(map_level, min(first + vec2i(i & 3, i >> 2), last), 0);
-        bounds = vec2f(max(bounds.x, depth), min(bounds.y, depth));
-    }
-    return bounds;
+struct MapBoundsPass {
+    layer: u32,
+    level: u32,
 }
 
-// Of 2 × 2 cells.
-@fragment
-fn bounds_of_bounds(@builtin(position) position: vec4f) -> @location(0) vec2f {
-    let first = vec2i(position.xy) * 2;
-    let a = textureLoad(below, first, 0).xy;
-    let b = textureLoad(below, first + vec2i(1, 0), 0).xy;
-    let c = textureLoad(below, first + vec2i(0, 1), 0).xy;
-    let d = textureLoad(below, first + vec2i(1, 1), 0).xy;
-    return vec2f(max(max(a.x, b.x), max(c.x, d.x)), min(min(a.y, b.y), min(c.y, d.y)));
+@group(0) @binding(0) var map_level: texture_depth_2d_array;
+@group(0) @binding(1) var<storage, read_write> bounds: MapBounds;
+@group(0) @binding(2) var<uniform> bounds_pass: MapBoundsPass;
+
+@compute @workgroup_size(8, 8)
+fn bounds_of_map(@builtin(global_invocation_id) cell: vec3u) {
+    if any(cell.xy >= vec2u(bounds.head.cells)) {
+        return;
+    }
+    let width = 1u << bounds.head.finest;
+    let last = textureDimensions(map_level) - 1u;
+    var nearest = 0.0;
+    for (var y = 0u; y < width; y++) {
+        for (var x = 0u; x < width; x++) {
+            let texel = min(cell.xy * width + vec2u(x, y), last);
+            nearest = max(nearest, textureLoad(map_level, texel, bounds_pass.layer, 0));
+        }
+    }
+    bounds.nearest[cell_index(bounds.head, bounds_pass.layer, 0u, cell.xy)] = nearest;
+}
+
+@compute @workgroup_size(8, 8)
+fn bounds_of_bounds(@builtin(global_invocation_id) cell: vec3u) {
+    if any(cell.xy >= vec2u(bounds.head.cells >> bounds_pass.level)) {
+        return;
+    }
+    let below = cell_index(bounds.head, bounds_pass.layer, bounds_pass.level - 1u, 2u * cell.xy);
+    let row = bounds.head.cells >> (bounds_pass.level - 1u);
+    let upper = max(bounds.nearest[below], bounds.nearest[below + 1u]);
+    let lower = max(bounds.nearest[below + row], bounds.nearest[below + row + 1u]);
+    bounds.nearest[cell_index(bounds.head, bounds_pass.layer, bounds_pass.level, cell.xy)] = max(upper, lower);
 }

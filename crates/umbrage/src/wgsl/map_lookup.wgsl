@@ -19,15 +19,14 @@ struct MapLayer {
     pad_e: f32,
     texel_w: vec3f,
     pad_f: f32,
-    // Perspective: the texel straight ahead, and the tangent that a texel spans.
+    // Perspective: the texel straight ahead, and the tangent that a texel spans; parallel: the metres it spans.
     axis: vec4f,
 }
 
 // The light as a surface. A round one is the image of the unit ball under its half axes, a flat one has two.
 struct LightExtent {
     right: vec3f,
-    // 1: round, 0: flat.
-    roundness: f32,
+    pad: f32,
     up: vec3f,
     pad_a: f32,
     ahead: vec3f,
@@ -92,10 +91,14 @@ struct MapPoint {
 
 // Views from a point, and six of them.
 override PERSPECTIVE: bool = false;
+// The light is a ball of some kind, else flat.
+override ROUND: bool = false;
 override CUBE: bool = false;
 
 // Texels that the neighbouring surface at a crease may slope against the receiver's plane.
 const CREASE: f32 = 0.5;
+// How steeply a surface may rise above the receiver's plane within a wide filter: a tangent.
+const BEND: f32 = 0.25;
 
 fn face_of_cube(direction: vec3f) -> u32 {
     let a = abs(direction);
@@ -161,11 +164,26 @@ fn map_bias(point: MapPoint, slope: vec2f, texels: f32) -> f32 {
     return map.bias * (texels * (abs(slope.x) + abs(slope.y)) + point.rounding);
 }
 
+// How deep a texel is wide.
+fn texel_depth(point: MapPoint) -> f32 {
+    let axis = map.layers[point.layer].axis;
+    return max(axis.z, axis.w) * select(map.per_metre.y, point.depth, PERSPECTIVE);
+}
+
+// What comparing `texels` away from the receiver has to forgive besides, since curved surfaces bend away from its plane.
+fn map_bend(point: MapPoint, texels: f32) -> f32 {
+    return map.bias * BEND * texels * texel_depth(point);
+}
+
 // Whether a receiver is lit when `stored` lies `offset` texels away from it: its plane, continued to there, is compared
-// with forgiveness for a crease between. All is multiplied by |across|, so that nothing is divided and a plane seen
-// edge-on counts as lit.
-fn is_lit(point: MapPoint, offset: vec2f, stored: f32) -> bool {
+// with forgiveness for a crease between and for `bend`. All is multiplied by |across|, so that nothing is divided and a plane
+// seen edge-on counts as lit.
+fn is_lit_beyond(point: MapPoint, offset: vec2f, stored: f32, bend: f32) -> bool {
     let toward = dot(point.along, offset) * sign(point.across);
     let crease = map.bias * CREASE * (abs(point.along.x) + abs(point.along.y));
-    return (point.depth + map.bias * point.rounding - stored) * abs(point.across) + toward + crease >= 0.0;
+    return (point.depth + map.bias * point.rounding + bend - stored) * abs(point.across) + toward + crease >= 0.0;
+}
+
+fn is_lit(point: MapPoint, offset: vec2f, stored: f32) -> bool {
+    return is_lit_beyond(point, offset, stored, 0.0);
 }

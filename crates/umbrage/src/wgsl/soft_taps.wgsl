@@ -1,16 +1,20 @@
 // Filters that follow the light's size: how far to look, what is in the way, and which share of the light it hides.
 
-@group(2) @binding(1) var map_bounds: texture_2d_array<f32>;
+@group(2) @binding(1) var<storage, read> map_bounds: MapBounds;
 
 // Taps of the search; those of the filter follow them in the table.
 override SEARCH: u32 = 16u;
 override FILTER: u32 = 32u;
+// Bounds of depth tell how far to look; else the nearest caster there can be.
+override BOUNDED: bool = true;
 
-// Base 2 logarithm of the cells across a box, plus 1.
-const CELLS: u32 = 2u;
+// Base 2 logarithm of the cells across a box, at least.
+const CELLS: u32 = 1u;
 // How often the bounds are looked up, each time around a smaller box.
-const ROUNDS: i32 = 5;
+const ROUNDS: i32 = 2;
 
+// Half a penumbra in texels that is not worth looking for.
+const NARROW: f32 = 0.5;
 // Keeps a plane through few blockers from tilting by chance.
 const LEAST_SPREAD: f32 = 0.02;
 
@@ -45,18 +49,20 @@ fn reach_of_cell(point: MapPoint, kernel: LightKernel, low: vec2f, high: vec2f, 
 fn reach_within(point: MapPoint, kernel: LightKernel, reach: f32) -> f32 {
     let half = kernel_box(kernel, reach);
     let last = vec2f(map.size - 1.0);
-    let a = vec2u(clamp(point.texel - half, vec2f(0.0), last));
-    let b = vec2u(clamp(point.texel + half, vec2f(0.0), last));
+    let finest = map_bounds.head.finest;
+    let a = vec2u(clamp(point.texel - half, vec2f(0.0), last)) >> vec2u(finest);
+    let b = vec2u(clamp(point.texel + half, vec2f(0.0), last)) >> vec2u(finest);
     let across = max(b.x - a.x, b.y - a.y) >> CELLS;
-    // Cells of level n are 4 << n texels wide.
-    let level = min(select(firstLeadingBit(across), 0u, across == 0u), textureNumLevels(map_bounds) - 1u);
-    let first_cell = a >> vec2u(level + 2u);
-    let last_cell = b >> vec2u(level + 2u);
-    let width = f32(4u << level);
+    let level = select(min(firstLeadingBit(across) + 1u, map_bounds.head.levels - 1u), 0u, across == 0u);
+    let first_cell = a >> vec2u(level);
+    let last_cell = b >> vec2u(level);
+    let width = f32(1u << (level + finest));
+    let index = cell_index(map_bounds.head, point.layer, level, vec2u(0u));
+    let row = map_bounds.head.cells >> level;
     var farthest = 0.0;
     for (var y = first_cell.y; y <= last_cell.y; y++) {
         for (var x = first_cell.x; x <= last_cell.x; x++) {
-            let nearest = textureLoad(map_bounds, vec2u(x, y), point.layer, level).x;
+            let nearest = map_bounds.nearest[index + y * row + x];
             let low = vec2f(f32(x), f32(y)) * width;
             let possible = min(reach_of_cell(point, kernel, low, low + width, nearest), reach);
             let gap = max(low - point.texel, point.texel - low - width);
@@ -68,15 +74,16 @@ fn reach_within(point: MapPoint, kernel: LightKernel, reach: f32) -> f32 {
     return farthest;
 }
 
-// Largest reach that any blocker can have: starts at a quarter of the map and shrinks to what is really there. 0 where there is
+// Largest reach that any blocker can have: starts at that of the nearest caster, and no more than a quarter of the map, and shrinks to what is really there. 0 where there is
 // none.
 fn farthest_reach(point: MapPoint, kernel: LightKernel) -> f32 {
     let box = kernel_box(kernel, 1.0);
-    var reach = 0.25 * map.size / max(max(box.x, box.y), 1e-6);
-    for (var i = 0; i < ROUNDS && reach > 0.0; i++) {
+    let quarter = 0.25 * map.size / max(max(box.x, box.y), 1e-6);
+    var reach = min(quarter, reach_of_cell(point, kernel, vec2f(0.0), vec2f(map.size), map.nearest));
+    for (var i = 0; BOUNDED && i < ROUNDS && reach > 0.0; i++) {
         reach = reach_within(point, kernel, reach);
     }
-    return reach;
+    return max(reach, 0.0);
 }
 
 // What the search found: blockers as a plane, whose reach is a linear function of the place in the search.
@@ -92,6 +99,7 @@ struct Blockers {
 // Looks for blockers within `reach`. A mean of their reaches alone would be that of the middle of what was found, and shadows end
 // at its border.
 fn search_blockers(point: MapPoint, kernel: LightKernel, first: u32, reach: f32) -> Blockers {
+    var any = vec2f(0.0);
     var count = 0.0;
     var sum = vec3f(0.0);
     var products = vec3f(0.0);
@@ -103,6 +111,7 @@ fn search_blockers(point: MapPoint, kernel: LightKernel, first: u32, reach: f32)
         let at = select(taps.offsets[first + min(i, SEARCH - 1u)], vec2f(0.0), i == SEARCH);
         let stored = stored_near(point, kernel_offset(kernel, at, reach));
         let found = blocker(point, kernel, stored);
+        any += select(vec2f(0.0), vec2f(found, 1.0), found > 0.0);
         // What is nearer to the receiver hides points of the light further out: beyond its rim it hides nothing.
         if found > 0.0 && found >= reach * rim(at) {
             count += 1.0;
@@ -114,7 +123,9 @@ fn search_blockers(point: MapPoint, kernel: LightKernel, first: u32, reach: f32)
         }
     }
     if count == 0.0 {
-        return Blockers(0.0, 0.0, vec2f(0.0), 0.0, 0.0);
+        // Nothing that surely hides the light; what there is nearer to the receiver may go on to where it does.
+        let mean = any.x / max(any.y, 1.0);
+        return Blockers(any.y, mean, vec2f(0.0), mean, mean);
     }
     let mean = sum / count;
     let spread = products / count - vec3f(mean.x * mean.x, mean.x * mean.y, mean.y * mean.y) + vec3f(LEAST_SPREAD, 0.0, LEAST_SPREAD);

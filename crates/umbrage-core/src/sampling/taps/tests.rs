@@ -101,6 +101,50 @@ fn moments_are_those_of_the_domain() {
 }
 
 #[test]
+fn grids_are_regular_and_have_the_moments_of_the_domain() {
+    for domain in DOMAINS {
+        assert_eq!(TapTable::grid(domain, 0).offsets, [[0.0; 2]]);
+        for side in [1, 2, 3, 8, 31] {
+            let table = TapTable::grid(domain, side);
+            assert_eq!((table.sets, table.taps, table.offsets.len() as u32), (1, side * side, side * side));
+            let mean = |f: &dyn Fn(&[f32; 2]) -> f32| table.offsets.iter().map(f).sum::<f32>() / table.taps as f32;
+            let full = if domain == Domain::Disc { 0.25 } else { 1.0 / 3.0 };
+            // The middles of n pieces have (1 − 1/n²) of the second moment of all; in the disc they come close to it.
+            let pieces = if domain == Domain::Segment { side * side } else { side } as f32;
+            let want = full * (1.0 - 1.0 / (pieces * pieces));
+            let limit = if domain == Domain::Disc { 0.25 * full / pieces } else { 1e-5 };
+            let (second, first) = (mean(&|tap| tap[0] * tap[0]), mean(&|tap| tap[0]) + mean(&|tap| tap[1]));
+            assert!(
+                first.abs() < 1e-5 && (second - want).abs() < limit,
+                "{domain:?}, {side}: {first}, {second}, {want}"
+            );
+        }
+    }
+    assert_eq!(TapTable::grid(Domain::Square, 2).offsets, [[-0.5, -0.5], [0.5, -0.5], [-0.5, 0.5], [0.5, 0.5]]);
+}
+
+#[test]
+fn weighted_taps_go_where_a_picture_is_bright() {
+    let picture = |pixels: [u8; 4]| Texture {
+        name: "test".into(),
+        width: 2,
+        height: 2,
+        rgba: pixels.map(|v| [v, v, v, 255]).to_vec(),
+    };
+    let table = TapTable::grid(Domain::Square, 16);
+    // Rows go down: the second row is at negative y.
+    let right_of_second_row = table.clone().weighted_by(&picture([0, 0, 0, 200]));
+    assert!(right_of_second_row.offsets.iter().all(|[x, y]| *x >= 0.0 && *y <= 0.0));
+    let left = table.clone().weighted_by(&picture([90, 0, 90, 0]));
+    assert!(left.offsets.iter().all(|[x, _]| *x <= 0.0));
+    assert_eq!(left.offsets.iter().filter(|[_, y]| *y > 0.0).count(), 128);
+    assert_eq!(table.clone().weighted_by(&picture([0; 4])), table);
+    let flat = table.clone().weighted_by(&picture([77; 4]));
+    let off = |a: &[f32; 2], b: &[f32; 2]| (a[0] - b[0]).abs() + (a[1] - b[1]).abs();
+    assert!(flat.offsets.iter().zip(&table.offsets).all(|(a, b)| off(a, b) < 1e-5));
+}
+
+#[test]
 fn each_stratum_of_the_same_area_holds_one_tap() {
     for taps in [2, 7, 8, 9, 64, 100, 1000] {
         for domain in [Domain::Disc, Domain::Square] {

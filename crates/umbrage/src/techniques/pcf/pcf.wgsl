@@ -48,7 +48,8 @@ fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let slope = map_slope(point);
     // A bilinear compare shares one reference depth between texels up to a texel away. For gathers half of that would do on
     // a plane, but wide filters meet curved surfaces: 7×7 then loses 0.05 % of the interior of `primitives`.
-    let bias = map_bias(point, slope, 1.0 + CREASE);
+    let width = select(0.5 * f32(KERNEL), RADIUS, KERNEL == 0u);
+    let bias = map_bias(point, slope, 1.0 + CREASE) + map_bend(point, max(width - 1.0, 0.0));
     if KERNEL == 0u {
         return disc(point, slope, pixel.at, bias);
     }

@@ -3,7 +3,7 @@
 //! Sources: Uralsky, "Efficient Soft-Edged Shadows Using Pixel Shader Branching", 2005; ZA 3.4.
 
 use crate::depth_maps::{
-    BIAS, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, NOISE, SHADERS, SIZE, TESTS, TILE, TapStage,
+    BIAS, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, NOISE, SHADERS, SIZE, TAP_LAYOUTS, TESTS, TILE, TapStage,
     Taps,
 };
 use crate::params::{Param, ParamKind};
@@ -13,7 +13,7 @@ use crate::technique::TechniqueInfo;
 const SHADER: Shader = Shader {
     name: "pcf-jitter",
     parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, MAP_TAPS, include_str!("pcf_jitter.wgsl")],
-    layouts: LOOKUP_LAYOUTS,
+    layouts: TAP_LAYOUTS,
 };
 
 const TAPS: Param = Param {

@@ -5,10 +5,11 @@ override TESTS: u32 = 8u;
 override RADIUS: f32 = 4.0;
 
 fn lit_taps(point: MapPoint, first: u32, from_tap: u32, to_tap: u32) -> u32 {
+    let bend = map_bend(point, RADIUS);
     var lit = 0u;
     for (var i = from_tap; i < to_tap; i++) {
         let stored = stored_near(point, RADIUS * taps.offsets[first + i]);
-        lit += select(0u, 1u, is_lit(point, stored.offset, stored.depth));
+        lit += select(0u, 1u, is_lit_beyond(point, stored.offset, stored.depth, bend));
     }
     return lit;
 }

@@ -3,11 +3,13 @@
 //! Sources: ZA 4.4.1 and 4.4.3, and 3.5 (Fernando, "Percentage-Closer Soft Shadows", 2005).
 
 use crate::depth_maps::{
-    BIAS, BOUNDS_SHADER, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, NOISE, SHADERS, SIZE, TESTS,
-    TILE, TapStage, Taps,
+    BIAS, BOUNDS_SHADER, FACES, FOCUS, GRADIENT_NOISE, LAYER_NAMES, LIGHTS, MapTechnique, SHADERS, SIZE, TAP_LAYOUTS,
+    TESTS, TILE, TapStage, Taps,
 };
 use crate::params::{Param, ParamKind};
-use crate::shader::{FULLSCREEN, LIGHT_KERNEL, MAP_LOOKUP, MAP_TAPS, MAP_VISIBILITY, RECEIVERS, SOFT_TAPS, Shader};
+use crate::shader::{
+    FULLSCREEN, LIGHT_KERNEL, MAP_CELLS, MAP_LOOKUP, MAP_QUICK, MAP_TAPS, MAP_VISIBILITY, RECEIVERS, SOFT_TAPS, Shader,
+};
 use crate::technique::TechniqueInfo;
 
 const SHADER: Shader = Shader {
@@ -17,12 +19,14 @@ const SHADER: Shader = Shader {
         RECEIVERS,
         MAP_LOOKUP,
         MAP_VISIBILITY,
+        MAP_QUICK,
         LIGHT_KERNEL,
         MAP_TAPS,
+        MAP_CELLS,
         SOFT_TAPS,
         include_str!("pcss_jitter.wgsl"),
     ],
-    layouts: LOOKUP_LAYOUTS,
+    layouts: TAP_LAYOUTS,
 };
 
 const SEARCH: Param = Param {
@@ -48,14 +52,16 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, SEARCH, TAPS, NOISE, TILE, FACES, FOCUS, BIAS],
+    params: &[SIZE, SEARCH, TAPS, GRADIENT_NOISE, TILE, FACES, FOCUS, BIAS],
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], BOUNDS_SHADER, SHADER],
     readme: include_str!("README.md"),
     make: |gpu, settings| {
         let (search, taps) = (settings.int("search") as u32, settings.int("taps") as u32);
         let constants = [("SEARCH", f64::from(search)), ("FILTER", f64::from(taps)), ("TESTS", f64::from(TESTS))];
-        let stage = TapStage::light(gpu, Taps::new(settings, search, taps));
-        Ok(Box::new(MapTechnique::staged(gpu, settings, &SHADER, 1.0, &constants, Some(Box::new(stage)))?.soft()))
+        let stage = TapStage::light(gpu, Taps::new(settings, search, taps), true);
+        Ok(Box::new(
+            MapTechnique::staged(gpu, settings, &SHADER, 1.0, &constants, Some(Box::new(stage)))?.soft().in_phases(),
+        ))
     },
 };

@@ -3,16 +3,22 @@
 
 override TESTS: u32 = 8u;
 
+// What the bounds of depth decide: nothing in the way, or so close that the penumbra is lost in a texel.
+fn quick_share(point: MapPoint, pixel: Pixel) -> f32 {
+    let kernel = light_kernel(point, pixel);
+    let half = kernel_box(kernel, farthest_reach(point, kernel));
+    if is_cut_by_horizon(kernel) || max(half.x, half.y) > NARROW {
+        return -1.0;
+    }
+    let stored = stored_near(point, vec2f(0.0));
+    return select(0.0, 1.0, is_lit(point, stored.offset, stored.depth));
+}
+
 fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let kernel = light_kernel(point, pixel);
     let first = first_tap(pixel.at);
-    let reach = farthest_reach(point, kernel);
-    let above = kernel.horizon.x - abs(kernel.horizon.y) - abs(kernel.horizon.z);
-    if reach <= 0.0 && above > 0.0 {
-        return 1.0;
-    }
-    let found = search_blockers(point, kernel, first, reach);
-    if found.count == 0.0 && above > 0.0 {
+    let found = search_blockers(point, kernel, first, farthest_reach(point, kernel));
+    if found.count == 0.0 && !is_cut_by_horizon(kernel) {
         return 1.0;
     }
     let tests = min(TESTS, FILTER);

@@ -1,0 +1,72 @@
+//! Percentage-closer filtering, blurred on the screen: soft edges for two cheap passes, and a halo unless the blur keeps to the
+//! surfaces.
+//!
+//! Sources: ZA 3.3; Shastry, "Soft-Edged Shadows", 2005; weights by surface after Tomasi and Manduchi 1998.
+
+mod blur;
+mod technique;
+mod tiles;
+
+use crate::depth_maps::{BIAS, Eye, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, SHADERS, SIZE};
+use crate::params::{Param, ParamKind};
+use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, RECEIVERS, Shader};
+use crate::technique::TechniqueInfo;
+use blur::{Blur, ScreenBlur};
+use technique::Blurred;
+
+const SOURCE_SHADER: Shader = Shader {
+    name: "pcf-blur source",
+    parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, include_str!("source.wgsl")],
+    layouts: LOOKUP_LAYOUTS,
+};
+
+const TILES_SHADER: Shader = Shader { name: "pcf-blur tiles", parts: &[include_str!("tiles.wgsl")], layouts: &[] };
+
+const BLUR_SHADER: Shader =
+    Shader { name: "pcf-blur", parts: &[RECEIVERS, include_str!("blur.wgsl")], layouts: &[Eye::LAYOUT, Blur::LAYOUT] };
+
+const SOURCE: Param = Param {
+    name: "source",
+    help: "What is blurred: percentage-closer filtering with 3×3 compares, or one compare.",
+    unit: "",
+    kind: ParamKind::Choice { values: &["3", "hard"] },
+};
+
+const RADIUS: Param = Param {
+    name: "radius",
+    help: "Reach of the blur, two standard deviations.",
+    unit: "pixels",
+    kind: ParamKind::Float { min: 0.0, max: 64.0, default: 4.0 },
+};
+
+const DEPTH_AWARE: Param = Param {
+    name: "depth-aware",
+    help: "Blurs only along a surface; off, light and shadow of one surface bleed into what is behind or before it on the \
+           screen.",
+    unit: "",
+    kind: ParamKind::Switch { default: true },
+};
+
+/// See the module.
+pub const INFO: TechniqueInfo = TechniqueInfo {
+    id: "pcf-blur",
+    title: "Blurred percentage-closer filtering",
+    summary: "Blurs the visibility picture itself, along the surfaces it shows: soft edges of constant width on the screen.",
+    source: "ZA 3.3",
+    lights: LIGHTS,
+    features: wgpu::Features::empty(),
+    hard: false,
+    params: &[SIZE, SOURCE, RADIUS, DEPTH_AWARE, FACES, FOCUS, BIAS],
+    views: &LAYER_NAMES,
+    shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], SOURCE_SHADER, TILES_SHADER, BLUR_SHADER],
+    readme: include_str!("README.md"),
+    make: |gpu, settings| {
+        let is_hard = settings.choice("source") == "hard";
+        let reach = if is_hard { 0.5 } else { 2.0 };
+        let constants = [("IS_HARD", f64::from(u8::from(is_hard)))];
+        let source = MapTechnique::new(gpu, settings, &SOURCE_SHADER, reach, &constants)?;
+        let radius = settings.float("radius");
+        let blur = (radius > 0.0).then(|| ScreenBlur::new(gpu, radius, settings.switch("depth-aware")));
+        Ok(Box::new(Blurred::new(source, blur)))
+    },
+};

@@ -1,0 +1,55 @@
+//! A frame: maps, visibility, blur.
+
+use super::blur::ScreenBlur;
+use crate::depth_maps::MapTechnique;
+use crate::technique::{DebugView, Stats, Technique};
+use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+use umbrage_core::light_view::LightView;
+
+pub(super) struct Blurred {
+    source: MapTechnique,
+    /// None for a radius of 0.
+    blur: Option<ScreenBlur>,
+}
+
+impl Blurred {
+    pub(super) fn new(source: MapTechnique, blur: Option<ScreenBlur>) -> Self {
+        Self { source, blur }
+    }
+}
+
+impl Technique for Blurred {
+    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
+        self.source.prepare(gpu, view)?;
+        if let Some(blur) = &mut self.blur {
+            blur.prepare(gpu, view);
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+        self.source.record(passes, view, visibility)?;
+        if let Some(blur) = &mut self.blur {
+            blur.record(passes, view.receivers, visibility);
+        }
+        Ok(())
+    }
+
+    fn stats(&self) -> Stats {
+        let mut stats = self.source.stats();
+        if let Some(blur) = &self.blur {
+            stats.draws += 3;
+            stats.triangles += blur.triangles();
+            stats.bytes += blur.bytes();
+        }
+        stats
+    }
+
+    fn light_views(&self) -> &[LightView] {
+        self.source.light_views()
+    }
+
+    fn debug_views(&self) -> Vec<DebugView<'_>> {
+        self.source.debug_views()
+    }
+}
