@@ -96,7 +96,10 @@ impl Taps {
             }
         };
         let filter = table(self.filter);
-        let search = (self.search > 0).then(|| table(self.search));
+        let search = (self.search > 0).then(|| match self.pattern {
+            Some(_) => table(self.search),
+            None => to_rim(table(self.search)),
+        });
         let tile = if self.pattern == Some(Pattern::Gradient) { 0 } else { filter.tile };
         let count = self.search + self.filter;
         let head = TapsHead { tile, sets: filter.sets, count, is_square: u32::from(domain == Domain::Square) };
@@ -113,6 +116,14 @@ impl Taps {
             [bytemuck::bytes_of(&head), bytemuck::cast_slice(&set_of_pixel), bytemuck::cast_slice(&offsets)];
         gpu.buffer("taps", &parts.concat(), wgpu::BufferUsages::STORAGE)
     }
+}
+
+/// Widens a grid until its outer taps are on the rim: a search that leaves the rim out takes the ends of a penumbra for lit and
+/// for umbra.
+fn to_rim(mut grid: TapTable) -> TapTable {
+    let side = grid.taps.isqrt().max(2) as f32;
+    grid.offsets.iter_mut().flatten().for_each(|x| *x *= side / (side - 1.0));
+    grid
 }
 
 /// What taps fill, in units of a light's half axes.

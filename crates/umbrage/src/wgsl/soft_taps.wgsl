@@ -74,12 +74,12 @@ fn reach_within(point: MapPoint, kernel: LightKernel, reach: f32) -> f32 {
     return farthest;
 }
 
-// Largest reach that any blocker can have: starts at that of the nearest caster, and no more than a quarter of the map, and shrinks to what is really there. 0 where there is
+// Largest reach that any blocker can have: starts at that of the nearest caster, and no more than the whole map, and shrinks to what is really there. 0 where there is
 // none.
 fn farthest_reach(point: MapPoint, kernel: LightKernel) -> f32 {
     let box = kernel_box(kernel, 1.0);
-    let quarter = 0.25 * map.size / max(max(box.x, box.y), 1e-6);
-    var reach = min(quarter, reach_of_cell(point, kernel, vec2f(0.0), vec2f(map.size), map.nearest));
+    let whole = map.size / max(max(box.x, box.y), 1e-6);
+    var reach = min(whole, reach_of_cell(point, kernel, vec2f(0.0), vec2f(map.size), map.nearest));
     for (var i = 0; BOUNDED && i < ROUNDS && reach > 0.0; i++) {
         reach = reach_within(point, kernel, reach);
     }

@@ -45,7 +45,7 @@ const BOUNDS: Param = Param {
     name: "bounds",
     help: "Looks for blockers only as far as bounds of the map's depth allow, not as far as the nearest caster would.",
     unit: "",
-    kind: ParamKind::Switch { default: false },
+    kind: ParamKind::Switch { default: true },
 };
 
 /// See the module.
