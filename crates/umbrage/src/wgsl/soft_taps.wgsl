@@ -15,6 +15,8 @@ const ROUNDS: i32 = 2;
 
 // Half a penumbra in texels that is not worth looking for.
 const NARROW: f32 = 0.5;
+// How much nearer than looked for a blocker may be and still hide the rim of the light.
+const SLACK: f32 = 1.6;
 // Keeps a plane through few blockers from tilting by chance.
 const LEAST_SPREAD: f32 = 0.02;
 
@@ -146,8 +148,9 @@ fn rim(at: vec2f) -> f32 {
     return select(length(at), max(abs(at.x), abs(at.y)), taps.head.is_square != 0u);
 }
 
-// Whether the tap finds the point `at` of the light in sight.
+// Whether the tap finds the point `at` of the light in sight. What was found much nearer to the receiver than was looked for hides a
+// point farther out; beyond the rim that is none.
 fn is_seen(point: MapPoint, kernel: LightKernel, at: vec2f, reach: f32) -> bool {
-    let stored = stored_near(point, kernel_offset(kernel, at, reach));
-    return is_above_horizon(kernel, at) && blocker(point, kernel, stored) <= 0.0;
+    let found = blocker(point, kernel, stored_near(point, kernel_offset(kernel, at, reach)));
+    return is_above_horizon(kernel, at) && !(found > 0.0 && found * SLACK >= reach * rim(at));
 }
