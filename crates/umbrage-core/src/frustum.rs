@@ -32,7 +32,8 @@ impl Frustum {
         Self::bounded_by(self.planes)
     }
 
-    fn bounded_by(planes: Vec<DVec4>) -> Self {
+    /// Inside of all these planes, unit normals with the offset in `w`.
+    pub(crate) fn bounded_by(planes: Vec<DVec4>) -> Self {
         let corners = corners(&planes);
         Self { planes, corners }
     }

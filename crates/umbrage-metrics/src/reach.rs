@@ -31,7 +31,7 @@ pub fn map_reach(views: &[LightView], camera: &Camera, depth: &Image<f32>, norma
 mod tests {
     use super::*;
     use umbrage_core::glam::DVec3;
-    use umbrage_core::light_view::{Fit, FitScene, Focus, fit};
+    use umbrage_core::light_view::{Fit, FitScene, Focus, Omni, fit};
     use umbrage_core::{Bounds, LightShape};
 
     #[test]
@@ -44,7 +44,7 @@ mod tests {
         let normal = Image::filled(64, 64, Vec3::Y);
         let reach = |size| {
             let mut views = Vec::new();
-            let to_fit = Fit { focus: Focus::Light, size, border_texels: 0.0 };
+            let to_fit = Fit { focus: Focus::Light, omni: Omni::Cube, size, border_texels: 0.0 };
             fit(&light, &camera.view(64, 64), &scene, &to_fit, &mut views);
             map_reach(&views, &camera, &depth, &normal)[(32, 32)]
         };

@@ -34,6 +34,7 @@ mod error;
 mod fullscreen;
 mod gpu;
 mod light_samples;
+mod moment_maps;
 mod params;
 mod passes;
 mod read;

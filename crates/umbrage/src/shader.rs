@@ -12,8 +12,10 @@ pub const MAP_VISIBILITY: &str = include_str!("wgsl/map_visibility.wgsl");
 pub const MAP_QUICK: &str = include_str!("wgsl/map_quick.wgsl");
 /// `wgsl/pack_normal.wgsl`: how a host packs the normals of [`crate::Receivers`], `pack_normal(normal, casts) -> u32`.
 pub const PACK_NORMAL: &str = include_str!("wgsl/pack_normal.wgsl");
-/// `wgsl/map_lookup.wgsl`: group 1, where a receiver lies in the maps of a light. After [`RECEIVERS`].
-pub const MAP_LOOKUP: &str = include_str!("wgsl/map_lookup.wgsl");
+/// `wgsl/map_storage.wgsl`: what maps hold for a depth; for passes that read or draw maps and don't have [`MAP_LOOKUP`].
+pub const MAP_STORAGE: &str = include_str!("wgsl/map_storage.wgsl");
+/// `wgsl/map_lookup.wgsl`: group 1, where a receiver lies in the maps of a light. With [`MAP_STORAGE`], after [`RECEIVERS`].
+pub const MAP_LOOKUP: &str = concat!(include_str!("wgsl/map_storage.wgsl"), include_str!("wgsl/map_lookup.wgsl"));
 /// `wgsl/light_kernel.wgsl`: the light's surface as a receiver sees it through the map. After [`MAP_LOOKUP`].
 pub const LIGHT_KERNEL: &str = include_str!("wgsl/light_kernel.wgsl");
 /// `wgsl/map_taps.wgsl`: group 2, where filters look. After [`MAP_LOOKUP`].
@@ -22,6 +24,19 @@ pub const MAP_TAPS: &str = include_str!("wgsl/map_taps.wgsl");
 pub const MAP_CELLS: &str = include_str!("wgsl/map_cells.wgsl");
 /// `wgsl/soft_taps.wgsl`: group 2, filters that follow the light's size. After [`LIGHT_KERNEL`], [`MAP_TAPS`] and [`MAP_CELLS`].
 pub const SOFT_TAPS: &str = include_str!("wgsl/soft_taps.wgsl");
+
+/// `wgsl/moments_depth.wgsl`: linear depth of filterable maps.
+pub const MOMENTS_DEPTH: &str = include_str!("wgsl/moments_depth.wgsl");
+/// `wgsl/moments_float.wgsl`: moments in textures of floats.
+pub const MOMENTS_FLOAT: &str = include_str!("wgsl/moments_float.wgsl");
+/// `wgsl/moments_unorm.wgsl`: moments in even steps of 16 bits. Needs a technique's `packed` and `unpacked`.
+pub const MOMENTS_UNORM: &str = include_str!("wgsl/moments_unorm.wgsl");
+/// `wgsl/moments_mean.wgsl`: their mean, where it is linear.
+pub const MOMENTS_MEAN: &str = include_str!("wgsl/moments_mean.wgsl");
+/// `wgsl/moments_passes.wgsl`: from depth to filtered moments. After a technique's `moments_of`.
+pub const MOMENTS_PASSES: &str = include_str!("wgsl/moments_passes.wgsl");
+/// `wgsl/moments_lookup.wgsl`: group 2, filtered moments. After [`MAP_LOOKUP`] and [`MOMENTS_DEPTH`].
+pub const MOMENTS_LOOKUP: &str = include_str!("wgsl/moments_lookup.wgsl");
 
 /// One shader: plain WGSL modules, later ones using names of earlier ones.
 #[derive(Clone, Copy, Debug)]

@@ -12,7 +12,7 @@ use crate::{
     view::View,
     visibility::VisibilityTarget,
 };
-use umbrage_core::LightShape;
+use umbrage_core::{LightShape, light_view::Omni};
 
 /// Pipelines (one for each combination that came up) and the uniforms of the pass.
 pub(crate) struct Lookup {
@@ -39,7 +39,8 @@ struct Variant {
     /// The light is a ball of some kind, which turns the same side to all.
     round: bool,
     perspective: bool,
-    cube: bool,
+    layout: Option<Omni>,
+    linear: bool,
     has_normals: bool,
 }
 
@@ -87,8 +88,10 @@ impl Lookup {
         let Some(textures) = maps.textures.as_ref().filter(|_| !maps.views.is_empty()) else { return };
         self.data = MapLookup::new(view, maps, self.bias);
         let perspective = maps.from_a_point();
+        let linear = maps.linear && perspective;
         let round = matches!(view.light.shape, LightShape::Sphere { .. } | LightShape::Ellipsoid { .. });
-        let variant = Variant { round, perspective, cube: maps.is_cube, has_normals: view.receivers.has_normals };
+        let has_normals = view.receivers.has_normals;
+        let variant = Variant { round, perspective, layout: maps.layout, linear, has_normals };
         let known = self.pipelines.iter().position(|(v, _)| *v == variant);
         self.current = Some(known.unwrap_or_else(|| {
             self.pipelines.push((variant, self.pipelines_of(gpu, variant)));
@@ -143,7 +146,8 @@ impl Lookup {
         let on = |switch: bool| if switch { 1.0 } else { 0.0 };
         constants.push(("ROUND", on(variant.round)));
         constants.push(("PERSPECTIVE", on(variant.perspective)));
-        constants.push(("CUBE", on(variant.cube)));
+        constants.push(("LAYOUT", layout_number(variant.layout)));
+        constants.push(("LINEAR", on(variant.linear)));
         constants.push(("HAS_NORMALS", on(variant.has_normals)));
         let receivers = Receivers::layout(gpu);
         let groups: Vec<_> = [&receivers, &self.layout].into_iter().chain(&self.more).collect();
@@ -169,6 +173,16 @@ impl Lookup {
             wgpu::BindingResource::Sampler(&self.sampler),
         ];
         bind(gpu, "map lookup", &self.layout, &resources)
+    }
+}
+
+/// `LAYOUT` in `wgsl/map_lookup.wgsl`.
+fn layout_number(layout: Option<Omni>) -> f64 {
+    match layout {
+        None => 0.0,
+        Some(Omni::Cube) => 1.0,
+        Some(Omni::Tetrahedral) => 2.0,
+        Some(Omni::DualParaboloid) => 3.0,
     }
 }
 

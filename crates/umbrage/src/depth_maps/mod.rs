@@ -3,88 +3,45 @@
 
 mod bounds;
 mod lookup;
+mod params;
 mod phases;
 mod pipelines;
 mod soft;
 mod stage;
 mod taps;
+mod textures;
 mod uniforms;
 
 use crate::{
     casters::{self, Casters, DrawList, Which},
     error::Error,
-    fullscreen::target_texture,
     gpu::Gpu,
-    params::{Param, ParamKind, Settings},
+    params::Settings,
     passes::Passes,
-    shader::{Shader, shader_struct},
+    shader::Shader,
     technique::{DebugView, Stats, Technique},
     view::View,
     visibility::VisibilityTarget,
 };
 pub(crate) use bounds::BOUNDS_SHADER;
 use lookup::Lookup;
-use pipelines::Pipelines;
+pub(crate) use params::{BIAS, DEPTH, FACES, FOCUS, OMNI, SIZE};
+use pipelines::{Kind, Pipelines};
 pub(crate) use soft::TapStage;
 pub(crate) use stage::Stage;
 pub(crate) use taps::{GRADIENT_NOISE, NOISE, TESTS, TILE, Taps};
+use textures::Textures;
+use uniforms::MapView;
 pub(crate) use uniforms::{Eye, LOOKUP_LAYOUTS, TAP_LAYOUTS};
 
 /// The shaders that render maps, for the registry's tests.
 pub(crate) const SHADERS: [Shader; 3] = [pipelines::DEPTH_SHADER, pipelines::SECOND_SHADER, pipelines::MIDPOINT_SHADER];
 
-use umbrage_core::glam::DMat4;
-use umbrage_core::light_view::{Fit, FitScene, Focus, LightView, fit};
-use umbrage_core::{Bounds, Frustum, LightKind, LightKinds};
+use umbrage_core::light_view::{Fit, FitScene, Focus, LightView, Omni, fit};
+use umbrage_core::{Bounds, LightKind, LightKinds};
 
 /// Names of the pictures inside, one a layer.
 pub(crate) const LAYER_NAMES: [&str; 6] = ["map-0", "map-1", "map-2", "map-3", "map-4", "map-5"];
-
-/// The format of maps: floats, since reversed depth needs their precision far away.
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-
-/// `size`: shared by all techniques with maps.
-pub(crate) const SIZE: Param = Param {
-    name: "size",
-    help: "Width and height of a map; a light to all sides has one for each of six faces.",
-    unit: "texels",
-    kind: ParamKind::Int { min: 1, max: 16384, default: 1024 },
-};
-
-/// `faces`: shared by all techniques with maps.
-pub(crate) const FACES: Param = Param {
-    name: "faces",
-    help: "Which surface the map holds: the nearest one, the nearest that faces away (closed meshes only), or the \
-           middle between the nearest two.",
-    unit: "",
-    kind: ParamKind::Choice { values: &["front", "back", "midpoint"] },
-};
-
-/// `focus`: shared by all techniques with maps.
-pub(crate) const FOCUS: Param = Param {
-    name: "focus",
-    help: "What the map covers: what the camera sees of the receivers, or all that the light reaches (steady under a \
-           moving camera).",
-    unit: "",
-    kind: ParamKind::Choice { values: &["visible", "light"] },
-};
-
-/// `bias`: shared by all techniques with maps.
-pub(crate) const BIAS: Param = Param {
-    name: "bias",
-    help: "Multiplies the automatic depth bias; for experiments, 1 is right.",
-    unit: "",
-    kind: ParamKind::Float { min: 0.0, max: 100.0, default: 1.0 },
-};
-
-shader_struct! {
-    /// What the vertex shader of a map needs.
-    pub(crate) struct MapView {
-        clip_from_world: [[f32; 4]; 4],
-        same: [f32; 2],
-        pad: [f32; 2],
-    }
-}
 
 /// A technique that renders depth maps and looks them up in one full-screen pass; techniques differ in the shader.
 pub(crate) struct MapTechnique {
@@ -188,6 +145,9 @@ pub(crate) struct DepthMaps {
     pub(crate) size: u32,
     midpoint: bool,
     focus: Focus,
+    omni: Omni,
+    /// Maps seen from a point fall linearly with the distance.
+    linear: bool,
     border_texels: f64,
     /// Draws casters too that can shadow nothing: for the baseline.
     every_caster: bool,
@@ -197,7 +157,8 @@ pub(crate) struct DepthMaps {
     textures: Option<Textures>,
     scene: FitScene,
     pub(crate) views: Vec<LightView>,
-    pub(crate) is_cube: bool,
+    /// What the layers are, `None` for a single view.
+    pub(crate) layout: Option<Omni>,
     layers: Vec<Layer>,
     triangles: u64,
 }
@@ -218,6 +179,8 @@ impl DepthMaps {
             size,
             midpoint: faces == "midpoint",
             focus: if settings.choice("focus") == "light" { Focus::Light } else { Focus::Visible },
+            omni: params::omni(settings),
+            linear: settings.choice("depth") == "linear",
             border_texels: reach_texels + 1.0,
             every_caster: false,
             soft: false,
@@ -225,7 +188,7 @@ impl DepthMaps {
             textures: None,
             scene: FitScene::default(),
             views: Vec::new(),
-            is_cube: false,
+            layout: None,
             layers: Vec::new(),
             triangles: 0,
         })
@@ -236,41 +199,41 @@ impl DepthMaps {
         self.scene.casters.extend(view.casters.casting_bounds());
         self.scene.receivers.clear();
         self.scene.receivers.extend(view.casters.receiving_bounds());
-        let mut to_fit = Fit { focus: self.focus, size: self.size, border_texels: self.border_texels };
+        let (focus, omni, size) = (self.focus, self.omni, self.size);
+        let mut to_fit = Fit { focus, omni, size, border_texels: self.border_texels };
         self.views.clear();
         if !view.light.casts || self.scene.casters.is_empty() {
             return Ok(());
         }
-        self.is_cube = fit(&view.light.shape, &view.camera, &self.scene, &to_fit, &mut self.views);
+        self.layout = fit(&view.light.shape, &view.camera, &self.scene, &to_fit, &mut self.views);
         if self.soft && !self.views.is_empty() {
             to_fit.border_texels += uniforms::light_border(&view.light.shape, self);
-            self.is_cube = fit(&view.light.shape, &view.camera, &self.scene, &to_fit, &mut self.views);
+            self.layout = fit(&view.light.shape, &view.camera, &self.scene, &to_fit, &mut self.views);
         }
         if self.views.is_empty() {
             return Ok(());
         }
-        let layer_count = if self.is_cube { 6 } else { 1 };
-        self.layers.resize_with(layer_count.max(self.layers.len()), Layer::default);
-        if self.textures.as_ref().is_none_or(|t| t.layers() < layer_count as u32) {
-            self.textures = Some(Textures::new(gpu, &self.pipelines, self.size, layer_count as u32, self.midpoint));
-        }
+        self.make_room(gpu);
         let receivers = self.scene.receivers.iter().fold(Bounds::EMPTY, |b, r| b.union(*r));
         let center = view.light.shape.center();
         let which =
             if self.every_caster { Which::Casting } else { Which::Shadowing(casters::Light { center, receivers }) };
         for light_view in &self.views {
-            let perspective = self.is_perspective(light_view);
             let layer = &mut self.layers[light_view.layer as usize];
-            let frustum = Frustum::of(&light_view.clip_from_world);
-            layer.list.fill(gpu, view.casters, which, &frustum);
-            let clip_from_world = light_view.clip_from_world * DMat4::from_translation(view.casters.origin());
-            layer.uniform = MapView {
-                clip_from_world: clip_from_world.as_mat4().to_cols_array_2d(),
-                same: if perspective { [1e-5, 0.0] } else { [0.0, 1e-7] },
-                pad: [0.0; 2],
-            };
+            layer.list.fill(gpu, view.casters, which, &light_view.frustum());
+            layer.uniform = MapView::new(light_view, view.casters.origin(), self.linear);
         }
         Ok(())
+    }
+
+    /// Pipelines, layers and textures for the views.
+    fn make_room(&mut self, gpu: &Gpu) {
+        self.pipelines.prepare(gpu, self.kind());
+        let count = self.layout.map_or(1, Omni::layers);
+        self.layers.resize_with(self.layers.len().max(count as usize), Layer::default);
+        if self.textures.as_ref().is_none_or(|t| t.layers() < count) {
+            self.textures = Some(Textures::new(gpu, &self.pipelines, self.size, count, self.midpoint));
+        }
     }
 
     /// Renders the maps; returns the number of draws.
@@ -282,7 +245,7 @@ impl DepthMaps {
             let i = view.layer as usize;
             passes.upload(&textures.uniforms[i].0, bytemuck::bytes_of(&layer.uniform));
             layer.list.upload(passes);
-            let rounds = self.pipelines.record(passes, casters, &layer.list, textures, i, self.is_perspective(view));
+            let rounds = self.pipelines.record(passes, casters, &layer.list, textures, i, self.kind());
             draws += rounds * layer.list.draws();
             triangles += u64::from(rounds) * layer.list.triangles(casters);
         }
@@ -306,12 +269,14 @@ impl DepthMaps {
 
     /// True where this frame's views are from a point.
     pub(crate) fn from_a_point(&self) -> bool {
-        self.views.first().is_some_and(|v| self.is_perspective(v))
+        self.views.first().is_some_and(LightView::is_perspective)
     }
 
-    /// True for views from a point.
-    pub(crate) fn is_perspective(&self, view: &LightView) -> bool {
-        view.clip_from_world.row(3).truncate().length_squared() > 0.0
+    /// What this frame's views need: all of a light are alike.
+    fn kind(&self) -> Kind {
+        let perspective = self.from_a_point();
+        let paraboloid = self.layout == Some(Omni::DualParaboloid);
+        Kind { perspective, paraboloid, linear: self.linear && perspective }
     }
 
     fn stats(&self) -> Stats {
@@ -324,75 +289,6 @@ impl DepthMaps {
             bytes: self.layers.iter().map(|l| l.list.bytes()).sum::<u64>()
                 + self.textures.as_ref().map_or(0, Textures::bytes),
         }
-    }
-}
-
-/// The textures of a light's maps and the buffers that go with each layer.
-pub(crate) struct Textures {
-    first: wgpu::Texture,
-    /// Second surface and midpoint, for `faces = midpoint`.
-    midpoint: Option<(wgpu::Texture, wgpu::Texture)>,
-    /// For each layer the view uniform and its bind group.
-    uniforms: Vec<(wgpu::Buffer, wgpu::BindGroup)>,
-    layers: Vec<LayerViews>,
-}
-
-/// Views and bind groups of one layer.
-struct LayerViews {
-    first: wgpu::TextureView,
-    second: Option<SecondViews>,
-}
-
-struct SecondViews {
-    second: wgpu::TextureView,
-    midpoint: wgpu::TextureView,
-    /// The first map, for the pass that renders the second surface.
-    read_first: wgpu::BindGroup,
-    /// Both maps, for the pass that takes their mean.
-    read_both: wgpu::BindGroup,
-}
-
-impl Textures {
-    fn new(gpu: &Gpu, pipelines: &Pipelines, size: u32, layers: u32, midpoint: bool) -> Self {
-        let texture = |label| target_texture(gpu, label, (size, size), layers, FORMAT);
-        let layer_view = |texture: &wgpu::Texture, layer| {
-            texture.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(wgpu::TextureViewDimension::D2),
-                base_array_layer: layer,
-                array_layer_count: Some(1),
-                ..Default::default()
-            })
-        };
-        let first = texture("shadow map");
-        let midpoint = midpoint.then(|| (texture("second surface"), texture("midpoint")));
-        let views = (0..layers).map(|i| {
-            let first = layer_view(&first, i);
-            let second = midpoint.as_ref().map(|(second, mid)| {
-                let (second, midpoint) = (layer_view(second, i), layer_view(mid, i));
-                let read_first = pipelines.read_first(gpu, &first);
-                let read_both = pipelines.read_both(gpu, &first, &second);
-                SecondViews { second, midpoint, read_first, read_both }
-            });
-            LayerViews { first, second }
-        });
-        let layers = views.collect();
-        let uniforms = (0..first.depth_or_array_layers()).map(|_| pipelines.view_uniform(gpu)).collect();
-        Self { first, midpoint, uniforms, layers }
-    }
-
-    fn layers(&self) -> u32 {
-        self.first.depth_or_array_layers()
-    }
-
-    /// The texture that is looked up.
-    pub(crate) fn result(&self) -> &wgpu::Texture {
-        self.midpoint.as_ref().map_or(&self.first, |(_, midpoint)| midpoint)
-    }
-
-    fn bytes(&self) -> u64 {
-        let count = if self.midpoint.is_some() { 3 } else { 1 };
-        let texels = u64::from(self.first.width()) * u64::from(self.first.height()) * u64::from(self.layers());
-        texels * 4 * count + self.uniforms.iter().map(|(b, _)| b.size()).sum::<u64>()
     }
 }
 

@@ -1,15 +1,22 @@
 //! The passes that render a layer of a map.
 
-use super::{FORMAT, MapView, Textures};
+use super::textures::{FORMAT, Textures};
+use super::uniforms::MapView;
 use crate::casters::{CASTERS_WGSL, Casters, DrawList, MATERIALS_WGSL, texture_layout, vertex_layouts};
 use crate::fullscreen::{self, UNIFORM, bind, layout};
-use crate::shader::{FULLSCREEN, Shader};
+use crate::shader::{FULLSCREEN, MAP_STORAGE, Shader};
 use crate::{gpu::Gpu, passes::Passes};
 
 /// Nearest surface, opaque and alpha-masked.
 pub(crate) const DEPTH_SHADER: Shader = Shader {
     name: "shadow map",
-    parts: &[CASTERS_WGSL, MATERIALS_WGSL, include_str!("../wgsl/map_depth.wgsl")],
+    parts: &[
+        CASTERS_WGSL,
+        MATERIALS_WGSL,
+        MAP_STORAGE,
+        include_str!("../wgsl/map_depth.wgsl"),
+        include_str!("../wgsl/map_paraboloid.wgsl"),
+    ],
     layouts: &[MapView::LAYOUT, crate::casters::Instance::LAYOUT, crate::casters::MATERIAL_LAYOUT],
 };
 
@@ -19,7 +26,9 @@ pub(crate) const SECOND_SHADER: Shader = Shader {
     parts: &[
         CASTERS_WGSL,
         MATERIALS_WGSL,
+        MAP_STORAGE,
         include_str!("../wgsl/map_depth.wgsl"),
+        include_str!("../wgsl/map_paraboloid.wgsl"),
         include_str!("../wgsl/map_second.wgsl"),
     ],
     layouts: DEPTH_SHADER.layouts,
@@ -29,27 +38,84 @@ pub(crate) const SECOND_SHADER: Shader = Shader {
 pub(crate) const MIDPOINT_SHADER: Shader =
     Shader { name: "midpoint", parts: &[FULLSCREEN, include_str!("../wgsl/map_midpoint.wgsl")], layouts: &[] };
 
-/// Pipelines and layouts, made once.
+/// What pipelines are made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Kind {
+    pub perspective: bool,
+    pub paraboloid: bool,
+    /// Of a perspective view: depth falls linearly with the distance.
+    pub linear: bool,
+}
+
+/// Pipelines of all kinds that came up, and layouts.
 pub(super) struct Pipelines {
-    nearest: [wgpu::RenderPipeline; 2],
-    second: Option<SecondPipelines>,
+    cull_mode: Option<wgpu::Face>,
+    nearest: wgpu::ShaderModule,
+    /// For `faces = midpoint`: second surface and mean.
+    second: Option<[wgpu::ShaderModule; 2]>,
     view_layout: wgpu::BindGroupLayout,
     one_map: wgpu::BindGroupLayout,
     two_maps: wgpu::BindGroupLayout,
+    made: Vec<(Kind, Set)>,
+}
+
+/// Pipelines of one kind; pairs are for opaque and alpha-masked casters.
+struct Set {
+    nearest: [wgpu::RenderPipeline; 2],
+    second: Option<SecondPipelines>,
 }
 
 /// For `faces = midpoint`.
 struct SecondPipelines {
     surface: [wgpu::RenderPipeline; 2],
-    /// For parallel and for perspective views.
-    midpoint: [wgpu::RenderPipeline; 2],
+    midpoint: wgpu::RenderPipeline,
+}
+
+/// Entry points: of vertices, of fragments that give the nearest surface, of those that give the second.
+type Entries = [(&'static str, Option<&'static str>, &'static str); 2];
+
+impl Kind {
+    /// For opaque and for alpha-masked casters. Fragment shaders that write depth forgo early depth tests, so a map that
+    /// is what the rasteriser makes of a matrix does without.
+    fn entries(self) -> Entries {
+        match (self.paraboloid, self.linear) {
+            (true, _) => [
+                ("opaque_bent", Some("written_bent"), "second_bent"),
+                ("masked_bent", Some("written_bent_cut_out"), "second_bent_cut_out"),
+            ],
+            (false, true) => {
+                [("opaque", Some("written"), "second"), ("masked", Some("written_cut_out"), "second_cut_out")]
+            }
+            (false, false) => [("opaque", None, "second"), ("masked", Some("cut_out"), "second_cut_out")],
+        }
+    }
 }
 
 impl Pipelines {
     pub(super) fn new(gpu: &Gpu, back_faces: bool, midpoint: bool) -> Self {
-        let view_layout = layout(gpu, "map view", wgpu::ShaderStages::VERTEX_FRAGMENT, &[UNIFORM]);
-        let one_map = depth_layout(gpu, 1);
-        let two_maps = depth_layout(gpu, 2);
+        Self {
+            cull_mode: back_faces.then_some(wgpu::Face::Front),
+            nearest: DEPTH_SHADER.module(gpu),
+            second: midpoint.then(|| [SECOND_SHADER.module(gpu), MIDPOINT_SHADER.module(gpu)]),
+            view_layout: layout(gpu, "map view", wgpu::ShaderStages::VERTEX_FRAGMENT, &[UNIFORM]),
+            one_map: depth_layout(gpu, 1),
+            two_maps: depth_layout(gpu, 2),
+            made: Vec::new(),
+        }
+    }
+
+    /// Makes what views of this kind need.
+    pub(super) fn prepare(&mut self, gpu: &Gpu, kind: Kind) {
+        if self.set(kind).is_none() {
+            self.made.push((kind, self.make(gpu, kind)));
+        }
+    }
+
+    fn set(&self, kind: Kind) -> Option<&Set> {
+        self.made.iter().find(|(k, _)| *k == kind).map(|(_, set)| set)
+    }
+
+    fn make(&self, gpu: &Gpu, kind: Kind) -> Set {
         let casters = Casters::layout(gpu);
         let textures = texture_layout(gpu);
         let pipeline_layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
@@ -58,27 +124,27 @@ impl Pipelines {
                 ..Default::default()
             })
         };
-        let cull_mode = back_faces.then_some(wgpu::Face::Front);
+        let cull_mode = self.cull_mode;
+        let constants = [("LINEAR", if kind.linear { 1.0 } else { 0.0 })];
         let draw = |module: &wgpu::ShaderModule, layout: &wgpu::PipelineLayout, vertex, fragment| {
             let compare = wgpu::CompareFunction::Greater;
-            pipeline(gpu, &Recipe { layout, module, vertex, fragment, cull_mode, compare, constants: &[] })
+            // A constant that no entry point uses is none of the module's.
+            let constants = if fragment == Some("cut_out") { &[][..] } else { &constants };
+            pipeline(gpu, &Recipe { layout, module, vertex, fragment, cull_mode, compare, constants })
         };
-        let module = DEPTH_SHADER.module(gpu);
-        let plain = pipeline_layout(&[Some(&view_layout), Some(&casters)]);
-        let textured = pipeline_layout(&[Some(&view_layout), Some(&casters), Some(&textures)]);
-        let nearest = [draw(&module, &plain, "opaque", None), draw(&module, &textured, "masked", Some("cut_out"))];
-        let second = midpoint.then(|| {
-            let module = SECOND_SHADER.module(gpu);
-            let all = pipeline_layout(&[Some(&view_layout), Some(&casters), Some(&textures), Some(&one_map)]);
-            SecondPipelines {
-                surface: [
-                    draw(&module, &all, "opaque", Some("second")),
-                    draw(&module, &all, "masked", Some("second_cut_out")),
-                ],
-                midpoint: midpoint_pipelines(gpu, &pipeline_layout(&[Some(&two_maps)])),
-            }
+        let plain = pipeline_layout(&[Some(&self.view_layout), Some(&casters)]);
+        let textured = pipeline_layout(&[Some(&self.view_layout), Some(&casters), Some(&textures)]);
+        let [opaque, masked] = kind.entries();
+        let nearest =
+            [draw(&self.nearest, &plain, opaque.0, opaque.1), draw(&self.nearest, &textured, masked.0, masked.1)];
+        let second = self.second.as_ref().map(|[second, mean]| {
+            let one_map = Some(&self.one_map);
+            let all = pipeline_layout(&[Some(&self.view_layout), Some(&casters), Some(&textures), one_map]);
+            let surface = [opaque, masked].map(|(vertex, _, fragment)| draw(second, &all, vertex, Some(fragment)));
+            let midpoint = midpoint_pipeline(gpu, mean, &pipeline_layout(&[Some(&self.two_maps)]), kind);
+            SecondPipelines { surface, midpoint }
         });
-        Self { nearest, second, view_layout, one_map, two_maps }
+        Set { nearest, second }
     }
 
     /// Renders one layer; returns how often the casters were drawn.
@@ -89,16 +155,17 @@ impl Pipelines {
         list: &DrawList,
         textures: &Textures,
         layer: usize,
-        perspective: bool,
+        kind: Kind,
     ) -> u32 {
+        let Some(set) = self.set(kind) else { return 0 };
         let views = &textures.layers[layer];
         let view_uniform = &textures.uniforms[layer].1;
         {
             let mut pass = passes.render("map", &[], clear(&views.first));
             pass.set_bind_group(0, view_uniform, &[]);
-            list.draw(&mut pass, casters, false, |masked| &self.nearest[usize::from(masked)]);
+            list.draw(&mut pass, casters, false, |masked| &set.nearest[usize::from(masked)]);
         }
-        let (Some(second), Some(pipelines)) = (&views.second, &self.second) else { return 1 };
+        let (Some(second), Some(pipelines)) = (&views.second, &set.second) else { return 1 };
         {
             let mut pass = passes.render("second surface", &[], clear(&second.second));
             pass.set_bind_group(0, view_uniform, &[]);
@@ -106,7 +173,7 @@ impl Pipelines {
             list.draw(&mut pass, casters, true, |masked| &pipelines.surface[usize::from(masked)]);
         }
         let mut pass = passes.render("midpoint", &[], clear(&second.midpoint));
-        pass.set_pipeline(&pipelines.midpoint[usize::from(perspective)]);
+        pass.set_pipeline(&pipelines.midpoint);
         pass.set_bind_group(0, &second.read_both, &[]);
         pass.draw(0..3, 0..1);
         2
@@ -153,20 +220,23 @@ fn read(gpu: &Gpu, layout: &wgpu::BindGroupLayout, views: &[&wgpu::TextureView])
     bind(gpu, "depth maps", layout, &resources)
 }
 
-fn midpoint_pipelines(gpu: &Gpu, layout: &wgpu::PipelineLayout) -> [wgpu::RenderPipeline; 2] {
-    let module = MIDPOINT_SHADER.module(gpu);
-    [0.0, 1.0].map(|perspective| {
-        let recipe = Recipe {
-            layout,
-            module: &module,
-            vertex: "fullscreen",
-            fragment: Some("midpoint"),
-            cull_mode: None,
-            compare: wgpu::CompareFunction::Always,
-            constants: &[("PERSPECTIVE", perspective)],
-        };
-        pipeline(gpu, &recipe)
-    })
+fn midpoint_pipeline(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    layout: &wgpu::PipelineLayout,
+    kind: Kind,
+) -> wgpu::RenderPipeline {
+    let is_harmonic = kind.perspective && !kind.linear;
+    let recipe = Recipe {
+        layout,
+        module,
+        vertex: "fullscreen",
+        fragment: Some("midpoint"),
+        cull_mode: None,
+        compare: wgpu::CompareFunction::Always,
+        constants: &[("HARMONIC", if is_harmonic { 1.0 } else { 0.0 })],
+    };
+    pipeline(gpu, &recipe)
 }
 
 /// What the pipelines of a map differ in.
@@ -183,7 +253,7 @@ struct Recipe<'a> {
 fn pipeline(gpu: &Gpu, recipe: &Recipe<'_>) -> wgpu::RenderPipeline {
     let buffers = match recipe.vertex {
         "fullscreen" => Vec::new(),
-        name => vertex_layouts(name == "masked"),
+        name => vertex_layouts(name.starts_with("masked")),
     };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(recipe.fragment.unwrap_or(recipe.vertex)),

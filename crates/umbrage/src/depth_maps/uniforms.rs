@@ -3,7 +3,20 @@
 use super::DepthMaps;
 use crate::{shader::shader_struct, view::View};
 use umbrage_core::glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
-use umbrage_core::{Frustum, LightShape, light_view::LightView};
+use umbrage_core::light_view::{FARTHEST, LightView, Paraboloid};
+use umbrage_core::{Bounds, Frustum, LightShape};
+
+shader_struct! {
+    /// What the shaders that draw a map need, see `wgsl/map_depth.wgsl`.
+    pub(crate) struct MapView {
+        clip_from_world: [[f32; 4]; 4],
+        clip_from_plane: [f32; 4],
+        plane_from_texel: [f32; 4],
+        same: [f32; 2],
+        farthest: f32,
+        near: f32,
+    }
+}
 
 shader_struct! {
     /// How to get from a pixel to the surface it shows.
@@ -65,6 +78,10 @@ shader_struct! {
         bias: f32,
         caster_rounding: f32,
         nearest: f32,
+        farthest: f32,
+        pad_a: f32,
+        pad_b: f32,
+        pad_c: f32,
         light: LightExtent,
     }
 }
@@ -76,6 +93,31 @@ pub(crate) const LOOKUP_LAYOUTS: &[crate::shader::HostLayout] =
 /// Host structs of a lookup shader with taps.
 pub(crate) const TAP_LAYOUTS: &[crate::shader::HostLayout] =
     &[Eye::LAYOUT, MapLayer::LAYOUT, LightExtent::LAYOUT, MapLookup::LAYOUT, super::taps::TapsHead::LAYOUT];
+
+impl MapView {
+    /// For casters relative to `origin`.
+    pub(super) fn new(view: &LightView, origin: DVec3, linear: bool) -> Self {
+        let plane = view.paraboloid.as_ref().map(|p| (p, InTexels::of(view.size, p)));
+        let four = |a: DVec2, b: DVec2| a.extend(b.x).extend(b.y).as_vec4().to_array();
+        Self {
+            clip_from_world: matrix(&(view.clip_from_world * DMat4::from_translation(origin))),
+            clip_from_plane: plane.map_or([0.0; 4], |(p, _)| four(p.scale, p.axis)),
+            // Up in the plane is up in the picture, texels go down.
+            plane_from_texel: plane.map_or([0.0; 4], |(_, texels)| {
+                let scale = DVec2::new(1.0, -1.0) / texels.per_unit;
+                four(scale, -texels.axis * scale)
+            }),
+            same: match (view.is_perspective(), linear, plane.is_some()) {
+                (false, ..) => [0.0, 1e-7],
+                (true, true, _) => [0.0, 1e-6],
+                (true, false, false) => [1e-5, 0.0],
+                (true, false, true) => [4e-5, 0.0],
+            },
+            farthest: FARTHEST as f32,
+            near: near(view) as f32,
+        }
+    }
+}
 
 impl Eye {
     /// For the camera and size of `view`.
@@ -100,10 +142,9 @@ impl MapLookup {
         // A layer that was not rendered sends every point outside of the map, where all is lit.
         let outside = DMat4::from_cols(DVec4::ZERO, DVec4::ZERO, DVec4::ZERO, DVec4::new(-1.0, -1.0, 0.0, 1.0));
         let mut layers = [MapLayer { map_from_ndc: matrix(&outside), ..MapLayer::default() }; 6];
-        let map_from_ndc = DMat4::from_translation(view.camera.eye) * eye_from_ndc;
+        let world_from_ndc = DMat4::from_translation(view.camera.eye) * eye_from_ndc;
         for v in &maps.views {
-            let map_from_world = texels_from_clip(v.size) * v.clip_from_world;
-            layers[v.layer as usize] = MapLayer::new(&map_from_world, &map_from_ndc, maps.is_perspective(v));
+            layers[v.layer as usize] = MapLayer::new(v, &world_from_ndc);
         }
         let center = view.light.shape.center();
         let from_light = DMat4::from_translation(view.camera.eye * center.w - center.truncate()) * eye_from_ndc;
@@ -112,20 +153,29 @@ impl MapLookup {
             layers,
             from_light: matrix(&from_light),
             size: maps.size as f32,
-            // Depth 0…1 in single precision; perspective depth keeps its relative precision, parallel depth does not.
-            rounding: if maps.from_a_point() { [2e-6, 0.0] } else { [0.0, 1e-6] },
+            rounding: rounding(maps),
             per_metre: per_metre(maps),
             bias: bias as f32,
-            caster_rounding: (maps.largest_coordinate(view) * 2.4e-7) as f32,
+            caster_rounding: (maps.largest_coordinate(view) * 2.4e-7 + storage_rounding(maps)) as f32,
             nearest: nearest(maps),
+            farthest: FARTHEST as f32,
             light: LightExtent::of(&view.light.shape),
+            ..Self::default()
         }
     }
 }
 
 impl MapLayer {
-    fn new(map_from_world: &DMat4, world_from_ndc: &DMat4, perspective: bool) -> Self {
-        let slopes = Slopes::of(map_from_world, perspective);
+    fn new(view: &LightView, world_from_ndc: &DMat4) -> Self {
+        match &view.paraboloid {
+            Some(paraboloid) => Self::paraboloid(view, paraboloid, world_from_ndc),
+            None => Self::matrix(view, world_from_ndc),
+        }
+    }
+
+    fn matrix(view: &LightView, world_from_ndc: &DMat4) -> Self {
+        let map_from_world = texels_from_clip(view.size) * view.clip_from_world;
+        let slopes = Slopes::of(&map_from_world, view.is_perspective());
         let row = |i| map_from_world.row(i).truncate().as_vec3().to_array();
         Self {
             map_from_ndc: matrix(&(map_from_world * world_from_ndc)),
@@ -135,9 +185,44 @@ impl MapLayer {
             texel_right: row(0),
             texel_down: row(1),
             texel_w: row(3),
-            axis: axis(map_from_world).as_vec4().to_array(),
+            axis: axis(&map_from_world).as_vec4().to_array(),
             ..Self::default()
         }
+    }
+
+    fn paraboloid(view: &LightView, paraboloid: &Paraboloid, world_from_ndc: &DMat4) -> Self {
+        let axes = DMat4::from_scale(DVec3::new(1.0, -1.0, 1.0)) * view.clip_from_world;
+        let [right, down, ahead] = [0, 1, 3].map(|i| axes.row(i).truncate());
+        let InTexels { axis, per_unit } = InTexels::of(view.size, paraboloid);
+        let floats = |v: DVec3| v.as_vec3().to_array();
+        Self {
+            map_from_ndc: matrix(&(axes * world_from_ndc)),
+            slope_right: floats(right),
+            slope_down: floats(down),
+            slope_axis: floats(ahead),
+            texel_right: floats(right * per_unit.x + ahead * axis.x),
+            texel_down: floats(down * per_unit.y + ahead * axis.y),
+            texel_w: floats(ahead),
+            axis: axis.extend(1.0 / per_unit.x).extend(1.0 / per_unit.y).as_vec4().to_array(),
+            ..Self::default()
+        }
+    }
+}
+
+/// Where a paraboloid's plane is in its map.
+#[derive(Clone, Copy)]
+struct InTexels {
+    /// The texel of the axis.
+    axis: DVec2,
+    /// Texels per unit of the plane, across and down.
+    per_unit: DVec2,
+}
+
+impl InTexels {
+    fn of(size: u32, paraboloid: &Paraboloid) -> Self {
+        let half = f64::from(size) * 0.5;
+        let down = DVec2::new(1.0, -1.0);
+        Self { axis: (DVec2::ONE + paraboloid.axis * down) * half, per_unit: paraboloid.scale * half }
     }
 }
 
@@ -206,42 +291,61 @@ pub(super) fn light_border(light: &LightShape, maps: &DepthMaps) -> f64 {
     };
     let nearest = f64::from(nearest(maps));
     let texels = |view: &LightView| {
-        let map_from_world = texels_from_clip(view.size) * view.clip_from_world;
-        let per_metre = map_from_world.row(0).truncate().length().max(map_from_world.row(1).truncate().length());
-        let depth = view.clip_from_world.row(2);
+        let per_metre = match &view.paraboloid {
+            // At distance 1, on the rim of the hemisphere; half of that on the axis.
+            Some(paraboloid) => InTexels::of(view.size, paraboloid).per_unit.max_element(),
+            None => {
+                let map_from_world = texels_from_clip(view.size) * view.clip_from_world;
+                map_from_world.row(0).truncate().length().max(map_from_world.row(1).truncate().length())
+            }
+        };
         // In perspective `near / depth` is the distance, and what is at distance d shows 1 / d as many texels a metre.
-        if maps.is_perspective(view) {
-            per_metre * nearest / depth.w
-        } else {
-            per_metre * nearest / depth.truncate().length()
-        }
+        let depth_per_metre = view.clip_from_world.row(2).truncate().length();
+        per_metre * nearest / if view.is_perspective() { near(view) } else { depth_per_metre }
     };
     radius * maps.views.iter().map(texels).fold(0.0, f64::max)
 }
 
 /// The largest depth that a map can hold, from the boxes around the casters.
 fn nearest(maps: &DepthMaps) -> f32 {
+    let deepest = maps.views.iter().map(|view| match view.paraboloid {
+        Some(_) => nearest_around(view, &maps.scene.casters),
+        None => nearest_ahead(view, &maps.scene.casters),
+    });
+    deepest.fold(0.0, f64::max).min(1.0) as f32
+}
+
+/// For depth that goes by the distance.
+fn nearest_around(view: &LightView, casters: &[Bounds]) -> f64 {
+    let frustum = view.frustum();
+    let (axes, near) = (view.clip_from_world, near(view));
+    let [right, up, ahead] = [0, 1, 3].map(|i| axes.row(i));
+    let light = -(right.truncate() * right.w + up.truncate() * up.w + ahead.truncate() * ahead.w);
+    let seen = casters.iter().filter(|b| frustum.may_see(b));
+    seen.map(|b| near / light.distance(light.clamp(b.min, b.max)).max(near)).fold(0.0, f64::max)
+}
+
+/// For depth that goes by a matrix.
+fn nearest_ahead(view: &LightView, casters: &[Bounds]) -> f64 {
     let mut points = Vec::new();
     let mut deepest = 0.0_f64;
-    for view in &maps.views {
-        let depth = |p: DVec3| {
-            let clip = view.clip_from_world * p.extend(1.0);
-            if clip.w > clip.z { clip.z / clip.w } else { 1.0 }
-        };
-        let behind = |p: &DVec3| (view.clip_from_world * p.extend(1.0)).w <= 0.0;
-        for bounds in &maps.scene.casters {
-            // A box that is partly behind a point light's view: what of it is in front.
-            let corners = bounds.corners();
-            points.clear();
-            match corners.iter().filter(|c| behind(c)).count() {
-                0 => points.extend(corners),
-                8 => {}
-                _ => Frustum::of(&view.clip_from_world).clip_box(bounds, &mut points),
-            }
-            deepest = points.iter().map(|p| depth(*p)).fold(deepest, f64::max);
+    let depth = |p: DVec3| {
+        let clip = view.clip_from_world * p.extend(1.0);
+        if clip.w > clip.z { clip.z / clip.w } else { 1.0 }
+    };
+    let behind = |p: &DVec3| (view.clip_from_world * p.extend(1.0)).w <= 0.0;
+    for bounds in casters {
+        // A box that is partly behind a point light's view: what of it is in front.
+        let corners = bounds.corners();
+        points.clear();
+        match corners.iter().filter(|c| behind(c)).count() {
+            0 => points.extend(corners),
+            8 => {}
+            _ => Frustum::of(&view.clip_from_world).clip_box(bounds, &mut points),
         }
+        deepest = points.iter().map(|p| depth(*p)).fold(deepest, f64::max);
     }
-    deepest.min(1.0) as f32
+    deepest
 }
 
 /// What a plane's normal has to do with the slope of its stored depth, see `map_point` in `wgsl/map_lookup.wgsl`.
@@ -280,10 +384,33 @@ fn matrix(m: &DMat4) -> [[f32; 4]; 4] {
     m.as_mat4().to_cols_array_2d()
 }
 
-/// How stored depth changes per metre along the light: perspective depth is near / distance, so its derivative is
+/// Of a perspective view: the distance of depth 1.
+fn near(view: &LightView) -> f64 {
+    view.clip_from_world.row(2).w
+}
+
+/// How depth changes per metre along the light: perspective depth is near / distance, so its derivative is
 /// depth² / near; that of parallel depth is constant.
 fn per_metre(maps: &DepthMaps) -> [f32; 2] {
-    let Some(view) = maps.views.first() else { return [0.0; 2] };
-    let depth = view.clip_from_world.row(2);
-    if maps.is_perspective(view) { [(1.0 / depth.w) as f32, 0.0] } else { [0.0, depth.truncate().length() as f32] }
+    match maps.views.first() {
+        None => [0.0; 2],
+        Some(view) if view.is_perspective() => [(1.0 / near(view)) as f32, 0.0],
+        Some(view) => [0.0, view.clip_from_world.row(2).truncate().length() as f32],
+    }
+}
+
+/// Depth 0…1 in single precision; perspective depth keeps its relative precision, parallel depth does not. In a
+/// paraboloid each texel's depth comes from differences between neighbours, which round more.
+fn rounding(maps: &DepthMaps) -> [f32; 2] {
+    match maps.views.first() {
+        Some(view) if view.paraboloid.is_some() => [2e-5, 0.0],
+        Some(view) if view.is_perspective() => [2e-6, 0.0],
+        _ => [0.0, 1e-6],
+    }
+}
+
+/// What storing a linear depth rounds, metres: the same at every distance.
+fn storage_rounding(maps: &DepthMaps) -> f64 {
+    let view = maps.views.first().filter(|view| maps.linear && view.is_perspective());
+    view.map_or(0.0, |view| 1e-6 * near(view) / FARTHEST)
 }

@@ -4,7 +4,7 @@
 fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
     let ndc = ndc_of(map.eye, at.xy, textureLoad(receiver_depth, vec2i(at.xy), 0));
     var layer = 0u;
-    if CUBE {
+    if LAYOUT == CUBE {
         layer = face_of_cube((map.from_light * ndc).xyz);
     }
     let p = map.layers[layer].map_from_ndc * ndc;

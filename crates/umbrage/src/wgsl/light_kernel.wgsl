@@ -14,6 +14,8 @@ struct LightKernel {
     nearer: vec2f,
     // Change of stored depth per texel along the plane through the receiver that is parallel to the light's.
     facing: vec2f,
+    // Of a paraboloid: what bends that.
+    facing_bend: f32,
     // The light's centre and half axes above the receiver's plane. A point of it is below the horizon where they add up to less
     // than 0.
     horizon: vec3f,
@@ -48,15 +50,19 @@ fn light_kernel(point: MapPoint, pixel: Pixel) -> LightKernel {
     var kernel: LightKernel;
     kernel.distance = length(way);
     kernel.radius = sqrt(dot(right, right) + dot(up, up));
-    kernel.right = vec2f(dot(map.layers[layer].texel_right, right), dot(map.layers[layer].texel_down, right));
-    kernel.up = vec2f(dot(map.layers[layer].texel_right, up), dot(map.layers[layer].texel_down, up));
+    let unit = -way / kernel.distance;
+    let change_right = texel_change(layer, right, unit);
+    let change_up = texel_change(layer, up, unit);
+    kernel.right = change_right.xy;
+    kernel.up = change_up.xy;
     if PERSPECTIVE {
-        let w = vec2f(dot(map.layers[layer].texel_w, right), dot(map.layers[layer].texel_w, up)) * point.inverse_w;
+        let w = vec2f(change_right.z, change_up.z) * point.inverse_w;
         kernel.right = kernel.right * point.inverse_w - point.texel * w.x;
         kernel.up = kernel.up * point.inverse_w - point.texel * w.y;
         kernel.nearer = w;
-        let along = vec2f(dot(normal, map.layers[layer].slope_right), dot(normal, map.layers[layer].slope_down));
-        kernel.facing = along * point.depth / (dot(normal, map.layers[layer].slope_axis) + dot(along, point.texel));
+        let plane = plane_through(point, normal);
+        kernel.facing = plane.along / plane.across;
+        kernel.facing_bend = plane.bend / plane.across;
     }
     kernel.horizon = vec3f(dot(pixel.surface.normal, way), dot(pixel.surface.normal, right), dot(pixel.surface.normal, up));
     if !pixel.surface.casts {
@@ -77,7 +83,7 @@ fn kernel_offset(kernel: LightKernel, at: vec2f, reach: f32) -> vec2f {
 // Reach of a blocker with this stored depth, `offset` texels away.
 fn reach_of(point: MapPoint, kernel: LightKernel, offset: vec2f, stored: f32) -> f32 {
     if PERSPECTIVE {
-        return stored / max(point.depth + dot(kernel.facing, offset), 1e-3 * point.depth) - 1.0;
+        return stored / max(point.depth + plane_step(point, kernel.facing, kernel.facing_bend, offset), 1e-3 * point.depth) - 1.0;
     }
     return (stored - point.depth) / map.per_metre.y;
 }

@@ -2,9 +2,15 @@
 
 struct MapView {
     clip_from_world: mat4x4f,
-    // How much nearer depths may be and still count as the same: relative, and absolute.
+    // Of a paraboloid: scale and offset from its plane to clip space, and from texels to the plane.
+    clip_from_plane: vec4f,
+    plane_from_texel: vec4f,
+    // How much nearer stored depths may be and still count as the same: relative, and absolute.
     same: vec2f,
-    pad: vec2f,
+    // Depth that linear maps store as 0.
+    farthest: f32,
+    // Distance of depth 1, metres.
+    near: f32,
 }
 
 @group(0) @binding(0) var<uniform> map_view: MapView;
@@ -39,4 +45,18 @@ fn cut_out(in: Masked) {
     if is_cut_out(in.material, base_color(in.material, in.uv).a) {
         discard;
     }
+}
+
+// Where maps are linear: `position.z` is near / distance.
+@fragment
+fn written(@builtin(position) position: vec4f) -> @builtin(frag_depth) f32 {
+    return stored_of(position.z, map_view.farthest);
+}
+
+@fragment
+fn written_cut_out(in: Masked) -> @builtin(frag_depth) f32 {
+    if is_cut_out(in.material, base_color(in.material, in.uv).a) {
+        discard;
+    }
+    return stored_of(in.position.z, map_view.farthest);
 }

@@ -3,7 +3,8 @@
 @group(0) @binding(0) var first_depth: texture_depth_2d;
 @group(0) @binding(1) var second_depth: texture_depth_2d;
 
-override PERSPECTIVE: bool = false;
+// Depths are near / distance: their harmonic mean is the mean of the distances.
+override HARMONIC: bool = false;
 
 @fragment
 fn midpoint(@builtin(position) position: vec4f) -> @builtin(frag_depth) f32 {
@@ -12,6 +13,5 @@ fn midpoint(@builtin(position) position: vec4f) -> @builtin(frag_depth) f32 {
     if second == 0.0 {
         return first;
     }
-    // Perspective depth is near / distance: its harmonic mean is the mean of the distances.
-    return select(0.5 * (first + second), 2.0 * first * second / (first + second), PERSPECTIVE);
+    return select(0.5 * (first + second), 2.0 * first * second / (first + second), HARMONIC);
 }

@@ -36,5 +36,5 @@ struct Stored {
 
 fn stored_near(point: MapPoint, offset: vec2f) -> Stored {
     let texel = clamp(floor(point.texel + offset), vec2f(0.0), vec2f(map.size - 1.0));
-    return Stored(texel + 0.5 - point.texel, textureLoad(map_depth, vec2i(texel), point.layer, 0));
+    return Stored(texel + 0.5 - point.texel, load_depth(vec2i(texel), point.layer));
 }

@@ -41,7 +41,7 @@ fn reach_of_cell(point: MapPoint, kernel: LightKernel, low: vec2f, high: vec2f, 
         return reach_of(point, kernel, vec2f(0.0), nearest);
     }
     let axis = map.layers[point.layer].axis;
-    let off_axis = (clamp(axis.xy, low, high) - axis.xy) * axis.zw;
+    let off_axis = select((clamp(axis.xy, low, high) - axis.xy) * axis.zw, vec2f(0.0), LAYOUT == PARABOLOIDS);
     let distance = sqrt(1.0 + dot(off_axis, off_axis)) / (map.per_metre.x * max(nearest, 1e-30));
     return (kernel.distance - distance) / max(distance - kernel.radius, 1e-3 * distance);
 }
@@ -64,7 +64,7 @@ fn reach_within(point: MapPoint, kernel: LightKernel, reach: f32) -> f32 {
     var farthest = 0.0;
     for (var y = first_cell.y; y <= last_cell.y; y++) {
         for (var x = first_cell.x; x <= last_cell.x; x++) {
-            let nearest = map_bounds.nearest[index + y * row + x];
+            let nearest = depth_of(map_bounds.nearest[index + y * row + x], map.farthest);
             let low = vec2f(f32(x), f32(y)) * width;
             let possible = min(reach_of_cell(point, kernel, low, low + width, nearest), reach);
             let gap = max(low - point.texel, point.texel - low - width);

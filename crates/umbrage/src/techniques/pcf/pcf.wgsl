@@ -8,7 +8,7 @@ override RADIUS: f32 = 2.5;
 
 // Four compares around the corner between texels (corner − 1, corner), in the order of textureGather.
 fn gather(point: MapPoint, slope: vec2f, corner: vec2f, bias: f32) -> vec4f {
-    let reference = max(point.depth + dot(slope, corner - point.texel) + bias, 0.0);
+    let reference = reference_of(depth_along(point, slope, corner - point.texel) + bias);
     return textureGatherCompare(map_depth, map_compare, corner / map.size, point.layer, reference);
 }
 
@@ -38,7 +38,7 @@ fn disc(point: MapPoint, slope: vec2f, at: vec2f, bias: f32) -> f32 {
     for (var i = 0u; i < TAPS; i++) {
         let angle = turn + f32(i) * 2.3999632;
         let offset = RADIUS * sqrt((f32(i) + 0.5) / f32(TAPS)) * vec2f(cos(angle), sin(angle));
-        let reference = max(point.depth + dot(slope, offset) + bias, 0.0);
+        let reference = reference_of(depth_along(point, slope, offset) + bias);
         sum += textureSampleCompareLevel(map_depth, map_compare, (point.texel + offset) / map.size, point.layer, reference);
     }
     return sum / f32(TAPS);
@@ -54,7 +54,7 @@ fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
         return disc(point, slope, pixel.at, bias);
     }
     if KERNEL == 2u {
-        return textureSampleCompareLevel(map_depth, map_compare, point.texel / map.size, point.layer, point.depth + bias);
+        return textureSampleCompareLevel(map_depth, map_compare, point.texel / map.size, point.layer, reference_of(point.depth + bias));
     }
     return square(point, slope, bias);
 }

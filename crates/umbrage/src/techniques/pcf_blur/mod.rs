@@ -7,7 +7,7 @@ mod blur;
 mod technique;
 mod tiles;
 
-use crate::depth_maps::{BIAS, Eye, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, SHADERS, SIZE};
+use crate::depth_maps::{BIAS, DEPTH, Eye, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE};
 use crate::params::{Param, ParamKind};
 use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, RECEIVERS, Shader};
 use crate::technique::TechniqueInfo;
@@ -56,7 +56,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, SOURCE, RADIUS, DEPTH_AWARE, FACES, FOCUS, BIAS],
+    params: &[SIZE, SOURCE, RADIUS, DEPTH_AWARE, FACES, OMNI, DEPTH, FOCUS, BIAS],
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], SOURCE_SHADER, TILES_SHADER, BLUR_SHADER],
     readme: include_str!("README.md"),

@@ -4,13 +4,13 @@ override IS_HARD: bool = false;
 
 fn nearest_texel(point: MapPoint) -> f32 {
     let texel = vec2i(point.texel);
-    let stored = textureLoad(map_depth, texel, point.layer, 0);
+    let stored = load_depth(texel, point.layer);
     return select(0.0, 1.0, is_lit(point, vec2f(texel) + 0.5 - point.texel, stored));
 }
 
 // Four compares around the corner between texels (corner − 1, corner), in the order of textureGather.
 fn compare_four(point: MapPoint, slope: vec2f, corner: vec2f, bias: f32) -> vec4f {
-    let reference = max(point.depth + dot(slope, corner - point.texel) + bias, 0.0);
+    let reference = reference_of(depth_along(point, slope, corner - point.texel) + bias);
     return textureGatherCompare(map_depth, map_compare, corner / map.size, point.layer, reference);
 }
 

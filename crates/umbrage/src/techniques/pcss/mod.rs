@@ -3,7 +3,7 @@
 //! Sources: Fernando, "Percentage-Closer Soft Shadows", 2005; ZA 3.5.
 
 use crate::depth_maps::{
-    BIAS, BOUNDS_SHADER, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, SHADERS, SIZE, TAP_LAYOUTS, TapStage, Taps,
+    BIAS, DEPTH, BOUNDS_SHADER, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE, TAP_LAYOUTS, TapStage, Taps,
 };
 use crate::params::{Param, ParamKind};
 use crate::shader::{
@@ -57,7 +57,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, SEARCH, KERNEL, BOUNDS, FACES, FOCUS, BIAS],
+    params: &[SIZE, SEARCH, KERNEL, BOUNDS, FACES, OMNI, DEPTH, FOCUS, BIAS],
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], BOUNDS_SHADER, SHADER],
     readme: include_str!("README.md"),

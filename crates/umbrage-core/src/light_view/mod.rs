@@ -1,0 +1,188 @@
+//! Light-space fits: the views that a map technique renders.
+//!
+//! One perspective view for a spot, one orthographic view for a directional light, and several for lights that shine to
+//! all sides, see [`Omni`]. With [`Focus::Visible`] each view is cropped to what the camera can see of the receivers
+//! (Brabec, Annen and Seidel, "Practical Shadow Mapping"; SG "Extensions"), so that no texel is spent elsewhere; its
+//! near side always reaches back to every caster.
+
+mod on_screen;
+mod paraboloid;
+mod parallel;
+mod perspective;
+mod rect;
+
+use crate::{bounds::Bounds, camera::CameraView, frustum::Frustum, light::LightShape};
+use glam::{DMat4, DVec2, DVec3};
+pub use on_screen::texel_on_screen;
+pub use paraboloid::Paraboloid;
+
+/// One view of a light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightView {
+    /// World to the light's clip space; reversed depth: perspective views store near / distance along the axis,
+    /// orthographic ones fall linearly from 1 at the nearest caster to 0 at the farthest receiver. For a paraboloid
+    /// the perspective view along its axis that [`LightView::paraboloid`] bends.
+    pub clip_from_world: DMat4,
+    /// Texels across and down.
+    pub size: u32,
+    /// The layer of the map: see [`Omni`], 0 for a single view.
+    pub layer: u32,
+    /// `None` where the matrix is all there is.
+    pub paraboloid: Option<Paraboloid>,
+}
+
+/// How views are fitted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fit {
+    /// What they cover.
+    pub focus: Focus,
+    /// What lights that shine to all sides get.
+    pub omni: Omni,
+    /// Texels of the map across and down, at least 1.
+    pub size: u32,
+    /// Texels kept free at every border, so that filters find neighbours there.
+    pub border_texels: f64,
+}
+
+/// What the views of a light cover.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Focus {
+    /// What the camera can see of the receivers.
+    Visible,
+    /// All that the light can reach: the scene, the spot's cone, all sides.
+    Light,
+}
+
+/// The views of a light that shines to all sides, and which layer of the map each direction belongs to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Omni {
+    /// Six faces: +X, −X, +Y, −Y, +Z, −Z. A direction belongs to its largest component.
+    #[default]
+    Cube,
+    /// Four faces of a tetrahedron that stands on its tip: straight down, and three that look up a little. A direction
+    /// belongs to the axis it is nearest to. Half of each map is outside of the face's triangle.
+    Tetrahedral,
+    /// Two paraboloids, down and up (Brabec, Annen and Seidel, "Shadow Mapping for Hemispherical and
+    /// Omnidirectional Light Sources", 2002). Floors and ceilings, the largest flat things, are whole in one of them.
+    DualParaboloid,
+}
+
+impl Omni {
+    /// Layers of the map.
+    pub fn layers(self) -> u32 {
+        match self {
+            Self::Cube => 6,
+            Self::Tetrahedral => 4,
+            Self::DualParaboloid => 2,
+        }
+    }
+
+    /// The layer that a direction from the light belongs to.
+    pub fn layer_of(self, direction: DVec3) -> u32 {
+        match self {
+            Self::DualParaboloid => u32::from(direction.y > 0.0),
+            Self::Cube | Self::Tetrahedral => {
+                let along = perspective::faces(self).map(|(forward, _)| forward.dot(direction));
+                let nearest = along.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+                nearest.map_or(0, |(layer, _)| layer as u32)
+            }
+        }
+    }
+}
+
+/// The boxes that a fit goes by.
+#[derive(Clone, Debug, Default)]
+pub struct FitScene {
+    /// Around each caster.
+    pub casters: Vec<Bounds>,
+    /// Around each receiver.
+    pub receivers: Vec<Bounds>,
+}
+
+/// Near plane of perspective views over the distance of the farthest point. Reversed float depth loses nothing by a
+/// small one.
+const NEAR: f64 = 1e-5;
+
+/// Stored depth of perspective views somewhat beyond the farthest point of the scene: where a depth that falls
+/// linearly with distance reaches 0.
+pub const FARTHEST: f64 = NEAR / 1.01;
+
+impl LightView {
+    /// A view that is all matrix.
+    pub fn of(clip_from_world: DMat4, size: u32, layer: u32) -> Self {
+        Self { clip_from_world, size, layer, paraboloid: None }
+    }
+
+    /// True for views from a point.
+    pub fn is_perspective(&self) -> bool {
+        self.clip_from_world.row(3).truncate().length_squared() > 0.0
+    }
+
+    /// Normalised device coordinates and stored depth of a point; `None` behind the view.
+    pub fn project(&self, point: DVec3) -> Option<DVec3> {
+        let clip = self.clip_from_world * point.extend(1.0);
+        match &self.paraboloid {
+            Some(paraboloid) => paraboloid.project(clip),
+            None => (clip.w > 0.0).then(|| clip.truncate() / clip.w),
+        }
+    }
+
+    /// The matrix whose x, y and w agree with the view at `point` and around it, to first order.
+    pub fn tangent_at(&self, point: DVec3) -> DMat4 {
+        match &self.paraboloid {
+            Some(paraboloid) => paraboloid.tangent_at(&self.clip_from_world, point),
+            None => self.clip_from_world,
+        }
+    }
+
+    /// A convex volume around all that the view shows.
+    pub fn frustum(&self) -> Frustum {
+        match &self.paraboloid {
+            Some(paraboloid) => paraboloid.frustum(&self.clip_from_world),
+            None => Frustum::of(&self.clip_from_world),
+        }
+    }
+}
+
+/// Fits the views of `light`, replacing what is in `views`. None are left where nothing that is seen can be in
+/// shadow. Returns [`Fit::omni`] where there are views and their layers are those of it, `None` for a single view.
+pub fn fit(
+    light: &LightShape,
+    camera: &CameraView,
+    scene: &FitScene,
+    fit: &Fit,
+    views: &mut Vec<LightView>,
+) -> Option<Omni> {
+    views.clear();
+    let center = light.center();
+    if center.w == 0.0 {
+        views.extend(parallel::view(-center.truncate(), camera, scene, fit));
+        return None;
+    }
+    let position = center.truncate();
+    let all = scene.casters.iter().chain(&scene.receivers).fold(Bounds::EMPTY, |b, c| b.union(*c));
+    if all.is_empty() {
+        return None;
+    }
+    let reach = all.corners().iter().map(|c| c.distance(position)).fold(0.0, f64::max);
+    let near = (NEAR * reach).max(f64::MIN_POSITIVE);
+    if let LightShape::Spot { direction, outer_angle_deg, .. } = *light
+        && let Some(view) = perspective::spot(position, direction, outer_angle_deg, near, camera, scene, fit)
+    {
+        views.push(view);
+        return None;
+    }
+    match fit.omni {
+        Omni::DualParaboloid => paraboloid::views(position, near, camera, scene, fit, views),
+        Omni::Cube | Omni::Tetrahedral => perspective::views(position, near, camera, scene, fit, views),
+    }
+    (!views.is_empty()).then_some(fit.omni)
+}
+
+/// The place in the plane at distance 1 ahead of what `clip`, a perspective view without crop, shows there.
+fn divided(clip: glam::DVec4) -> DVec2 {
+    clip.truncate().truncate() / clip.w
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,36 @@
+//! How large texels are on the screen.
+
+use super::LightView;
+use crate::camera::CameraView;
+use glam::{DMat4, DVec2, DVec3};
+
+/// How far, in pixels, one texel of the map that covers `point` reaches on the screen along the surface there with
+/// `normal`: the largest singular value of ∂pixel/∂texel. `None` where no view covers the point.
+pub fn texel_on_screen(
+    views: &[LightView],
+    camera: &CameraView,
+    (width, height): (u32, u32),
+    point: DVec3,
+    normal: DVec3,
+) -> Option<f64> {
+    let covers = |v: &&LightView| v.project(point).is_some_and(|p| p.x.abs() <= 1.0 && p.y.abs() <= 1.0);
+    let view = views.iter().find(covers)?;
+    let (s, t) = normal.try_normalize()?.any_orthonormal_pair();
+    let half = |w: u32, h: u32| DVec2::new(f64::from(w), f64::from(h)) * 0.5;
+    // Change of the place in a picture when the point moves along an axis of the surface.
+    let change = |clip_from_world: &DMat4, scale: DVec2, axis: DVec3| {
+        let (p, d) = (*clip_from_world * point.extend(1.0), *clip_from_world * axis.extend(0.0));
+        (d.truncate().truncate() * p.w - p.truncate().truncate() * d.w) / (p.w * p.w) * scale
+    };
+    let texels = [s, t].map(|a| change(&view.tangent_at(point), half(view.size, view.size), a));
+    let pixels = [s, t].map(|a| change(&camera.clip_from_world(), half(width, height), a));
+    let det = texels[0].perp_dot(texels[1]);
+    if det.abs() < f64::MIN_POSITIVE {
+        return Some(f64::INFINITY);
+    }
+    let x = (pixels[0] * texels[1].y - pixels[1] * texels[0].y) / det;
+    let y = (pixels[1] * texels[0].x - pixels[0] * texels[1].x) / det;
+    // Largest singular value of the 2×2 matrix with columns x and y.
+    let (sum, product) = (x.length_squared() + y.length_squared(), x.perp_dot(y));
+    Some(((sum + (sum * sum - 4.0 * product * product).max(0.0).sqrt()) * 0.5).sqrt())
+}

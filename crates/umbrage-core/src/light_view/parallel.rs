@@ -1,0 +1,67 @@
+//! Orthographic views of parallel light.
+
+use super::rect::{Crop, Rect};
+use super::{Fit, FitScene, Focus, LightView};
+use crate::{bounds::Bounds, camera::CameraView, frustum::Frustum};
+use glam::{DMat4, DVec2, DVec3, DVec4};
+
+/// The view of a light at infinity that travels along `direction`.
+pub(super) fn view(direction: DVec3, camera: &CameraView, scene: &FitScene, fit: &Fit) -> Option<LightView> {
+    let mut points = Vec::new();
+    match fit.focus {
+        Focus::Light => points.extend(scene.receivers.iter().flat_map(Bounds::corners)),
+        Focus::Visible => {
+            let seen = Frustum::of(&camera.clip_from_world());
+            scene.receivers.iter().for_each(|b| seen.clip_box(b, &mut points));
+        }
+    }
+    let (right, up) = tightest_axes(direction, &points, fit.focus);
+    let rect = Rect::of(points.iter().map(|p| DVec2::new(right.dot(*p), up.dot(*p))))?;
+    // Heights along the way the light travels: from the first caster to the last receiver.
+    let height = |p: DVec3| direction.dot(p);
+    let last = points.iter().map(|p| height(*p)).fold(f64::NEG_INFINITY, f64::max);
+    let corners = scene.casters.iter().flat_map(Bounds::corners).chain(points.iter().copied());
+    let first = corners.map(height).fold(f64::INFINITY, f64::min);
+    let margin = ((last - first) * 1e-4).max(1e-9 * (1.0 + first.abs().max(last.abs())));
+    let (first, last) = (first - margin, last + margin);
+    let depth = 1.0 / (last - first);
+    let light_from_world = DMat4::from_cols(
+        right.extend(0.0),
+        up.extend(0.0),
+        (-direction * depth).extend(last * depth),
+        DVec4::new(0.0, 0.0, 0.0, 1.0),
+    )
+    .transpose();
+    Some(LightView::of(Crop::to(rect, fit).matrix() * light_from_world, fit.size, 0))
+}
+
+/// Two axes across `direction` that give the points a small rectangle. A focus on the light keeps fixed axes, so that
+/// the map does not turn with the camera.
+fn tightest_axes(direction: DVec3, points: &[DVec3], focus: Focus) -> (DVec3, DVec3) {
+    let a = direction.any_orthonormal_vector();
+    let b = a.cross(direction);
+    let axes = |angle: f64| {
+        let (sin, cos) = angle.sin_cos();
+        (a * cos + b * sin, b * cos - a * sin)
+    };
+    if focus == Focus::Light {
+        return axes(0.0);
+    }
+    // A few extreme points in fixed directions stand for the hull.
+    let hull: Vec<DVec3> = (0..32)
+        .filter_map(|i| {
+            let (u, _) = axes(std::f64::consts::TAU * f64::from(i) / 32.0);
+            points.iter().copied().max_by(|p, q| u.dot(*p).total_cmp(&u.dot(*q)))
+        })
+        .collect();
+    let area = |angle: f64| {
+        let (u, v) = axes(angle);
+        Rect::of(hull.iter().map(|p| DVec2::new(u.dot(*p), v.dot(*p))))
+            .map_or(0.0, |r| (r.max - r.min).element_product())
+    };
+    let best = (0..24)
+        .map(|i| std::f64::consts::FRAC_PI_2 * f64::from(i) / 24.0)
+        .min_by(|x, y| area(*x).total_cmp(&area(*y)))
+        .unwrap_or(0.0);
+    axes(best)
+}

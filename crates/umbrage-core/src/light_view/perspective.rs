@@ -1,0 +1,154 @@
+//! Perspective views: a spot's, and the faces of a cube or tetrahedron.
+
+use super::rect::{Crop, Rect};
+use super::{Fit, FitScene, Focus, LightView, Omni, divided};
+use crate::{bounds::Bounds, camera::CameraView, frustum::Frustum};
+use glam::{DMat4, DVec2, DVec3, DVec4};
+
+/// Widest half angle of a single perspective view, as a tangent: 60 degrees. A spot that has to cover more gets
+/// several views.
+const WIDEST: f64 = 1.732;
+
+/// Forward and up of the faces of a cube, in the order of the layers.
+const CUBE: [(DVec3, DVec3); 6] = [
+    (DVec3::X, DVec3::Y),
+    (DVec3::NEG_X, DVec3::Y),
+    (DVec3::Y, DVec3::Z),
+    (DVec3::NEG_Y, DVec3::Z),
+    (DVec3::Z, DVec3::Y),
+    (DVec3::NEG_Z, DVec3::Y),
+];
+
+/// Horizontal length of the three axes of the tetrahedron that are not straight down, √8 / 3.
+const ACROSS: f64 = 2.0 * std::f64::consts::SQRT_2 / 3.0;
+/// Sine of 60 degrees.
+const SIN_60: f64 = 0.866_025_403_784_438_6;
+
+/// Forward and up of the faces of a tetrahedron. Up leads to a corner of the face, which is opposite to another axis.
+const TETRAHEDRON: [(DVec3, DVec3); 4] = [
+    (DVec3::NEG_Y, DVec3::NEG_X),
+    (DVec3::new(ACROSS, 1.0 / 3.0, 0.0), DVec3::Y),
+    (DVec3::new(-0.5 * ACROSS, 1.0 / 3.0, SIN_60 * ACROSS), DVec3::Y),
+    (DVec3::new(-0.5 * ACROSS, 1.0 / 3.0, -SIN_60 * ACROSS), DVec3::Y),
+];
+
+/// Forward and up of each layer.
+pub(super) fn faces(omni: Omni) -> impl Iterator<Item = (DVec3, DVec3)> {
+    let faces: &[_] = match omni {
+        Omni::Cube => &CUBE,
+        Omni::Tetrahedral => &TETRAHEDRON,
+        Omni::DualParaboloid => &[],
+    };
+    faces.iter().copied()
+}
+
+/// What a whole face covers: a square of 90 degrees, or the box around an equilateral triangle whose corners are
+/// 70.5 degrees from the axis, one of them up.
+fn whole(omni: Omni) -> Rect {
+    match omni {
+        Omni::Tetrahedral => {
+            Rect { min: DVec2::new(-6f64.sqrt(), -2f64.sqrt()), max: DVec2::new(6f64.sqrt(), 2.0 * 2f64.sqrt()) }
+        }
+        _ => Rect::around(1.0),
+    }
+}
+
+/// Appends the faces of [`Fit::omni`] that see receivers.
+pub(super) fn views(
+    position: DVec3,
+    near: f64,
+    camera: &CameraView,
+    scene: &FitScene,
+    fit: &Fit,
+    views: &mut Vec<LightView>,
+) {
+    let axes: Vec<DVec3> = faces(fit.omni).map(|(forward, _)| forward).collect();
+    for (layer, (forward, up)) in faces(fit.omni).enumerate() {
+        let face = Perspective { position, forward, up, near };
+        let rect = match fit.focus {
+            Focus::Light => Some(whole(fit.omni)),
+            Focus::Visible => {
+                face.visible(camera, &scene.receivers, &nearest_to(position, forward, &axes), whole(fit.omni))
+            }
+        };
+        if let Some(rect) = rect {
+            let clip_from_world = Crop::to(rect, fit).matrix() * face.clip_from_world();
+            views.push(LightView::of(clip_from_world, fit.size, layer as u32));
+        }
+    }
+}
+
+/// The directions that are nearer to `axis` than to any other of `axes`.
+fn nearest_to(position: DVec3, axis: DVec3, axes: &[DVec3]) -> Frustum {
+    let between = axes.iter().filter(|other| **other != axis).map(|other| (axis - other).normalize());
+    Frustum::bounded_by(between.map(|n| n.extend(-n.dot(position))).collect())
+}
+
+/// A view from a point with a square opening of 90 degrees.
+pub(super) struct Perspective {
+    pub position: DVec3,
+    pub forward: DVec3,
+    pub up: DVec3,
+    pub near: f64,
+}
+
+impl Perspective {
+    pub fn clip_from_world(&self) -> DMat4 {
+        let right = self.forward.cross(self.up).normalize();
+        let up = right.cross(self.forward);
+        let row = |axis: DVec3| axis.extend(-axis.dot(self.position));
+        DMat4::from_cols(row(right), row(up), DVec4::new(0.0, 0.0, 0.0, self.near), row(self.forward)).transpose()
+    }
+
+    /// What the camera sees of the receivers within `opening`, as far as that is in `whole`.
+    fn visible(&self, camera: &CameraView, receivers: &[Bounds], opening: &Frustum, whole: Rect) -> Option<Rect> {
+        let clip_from_world = self.clip_from_world();
+        let both = Frustum::of(&camera.clip_from_world()).and(opening);
+        let mut points = Vec::new();
+        for bounds in receivers {
+            both.clip_box(bounds, &mut points);
+        }
+        Rect::of(points.iter().map(|p| {
+            let clip = clip_from_world * p.extend(1.0);
+            divided(DVec4 { w: clip.w.max(self.near), ..clip }).clamp(whole.min, whole.max)
+        }))
+    }
+}
+
+/// The single view of a spot; `None` where it would have to be wider than such a view can be.
+pub(super) fn spot(
+    position: DVec3,
+    direction: DVec3,
+    outer_angle_deg: f64,
+    near: f64,
+    camera: &CameraView,
+    scene: &FitScene,
+    fit: &Fit,
+) -> Option<LightView> {
+    let view = Perspective { position, forward: direction, up: direction.any_orthonormal_vector(), near };
+    let rect = match fit.focus {
+        Focus::Light => {
+            let tangent = outer_angle_deg.to_radians().tan();
+            if !(0.0..=WIDEST).contains(&tangent) {
+                return None;
+            }
+            Rect::around(tangent)
+        }
+        Focus::Visible => {
+            let mut points = Vec::new();
+            let seen = Frustum::of(&camera.clip_from_world());
+            scene.receivers.iter().for_each(|b| seen.clip_box(b, &mut points));
+            let inside = |p: &DVec3| {
+                let clip = view.clip_from_world() * p.extend(1.0);
+                clip.truncate().truncate().abs().max_element() <= WIDEST * clip.w
+            };
+            if !points.iter().all(inside) {
+                return None;
+            }
+            let tangents = DMat4::from_scale(DVec3::new(1.0 / WIDEST, 1.0 / WIDEST, 1.0));
+            let opening = Frustum::of(&(tangents * view.clip_from_world()));
+            view.visible(camera, &scene.receivers, &opening, Rect::around(WIDEST))?
+        }
+    };
+    Some(LightView::of(Crop::to(rect, fit).matrix() * view.clip_from_world(), fit.size, 0))
+}

@@ -1,0 +1,86 @@
+//! Exponential shadow maps: an exponential falls off behind the blocker in place of a step.
+//!
+//! Source: Annen, Mertens, Seidel, Flerackers and Kautz, "Exponential Shadow Maps", 2008.
+
+use crate::depth_maps::{BIAS, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, SHADERS, SIZE};
+use crate::moment_maps::{Coding, FORMAT, MIPS, MomentStage, PASS_LAYOUTS, RADIUS, Recipe};
+use crate::params::{Param, ParamKind};
+use crate::shader::{
+    FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, MOMENTS_DEPTH, MOMENTS_FLOAT, MOMENTS_LOOKUP, MOMENTS_PASSES,
+    MOMENTS_UNORM, RECEIVERS, Shader,
+};
+use crate::technique::TechniqueInfo;
+
+const MOMENTS: &str = include_str!("moments.wgsl");
+const ESM: &str = include_str!("esm.wgsl");
+
+const PASSES: Shader = Shader {
+    name: "esm moments",
+    parts: &[FULLSCREEN, MOMENTS_DEPTH, MOMENTS_FLOAT, MOMENTS, MOMENTS_PASSES],
+    layouts: PASS_LAYOUTS,
+};
+const PASSES_16: Shader = Shader {
+    name: "esm moments, 16 bits",
+    parts: &[FULLSCREEN, MOMENTS_DEPTH, MOMENTS_UNORM, MOMENTS, MOMENTS_PASSES],
+    layouts: PASS_LAYOUTS,
+};
+const LOOKUP: Shader = Shader {
+    name: "esm",
+    parts: &[
+        FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, MOMENTS_DEPTH, MOMENTS_FLOAT, MOMENTS, MOMENTS_LOOKUP, ESM,
+    ],
+    layouts: LOOKUP_LAYOUTS,
+};
+const LOOKUP_16: Shader = Shader {
+    name: "esm, 16 bits",
+    parts: &[
+        FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, MOMENTS_DEPTH, MOMENTS_UNORM, MOMENTS, MOMENTS_LOOKUP, ESM,
+    ],
+    layouts: LOOKUP_LAYOUTS,
+};
+
+const BLEEDING: Param = Param {
+    name: "bleeding",
+    help: "Shares of light up to this count as none, the rest is stretched: takes light that bleeds through off.",
+    unit: "",
+    kind: ParamKind::Float { min: 0.0, max: 0.9, default: 0.1 },
+};
+
+const EXPONENT: Param = Param {
+    name: "exponent",
+    help: "How steeply light falls off behind a blocker, over the range of depth.",
+    unit: "",
+    kind: ParamKind::Float { min: 1.0, max: 2000.0, default: 400.0 },
+};
+
+/// See the module.
+pub const INFO: TechniqueInfo = TechniqueInfo {
+    id: "esm",
+    title: "Exponential shadow maps",
+    summary: "Filters exponentials of depth, which fall off steeply behind a blocker.",
+    source: "beyond: Annen et al. 2008",
+    lights: LIGHTS,
+    features: wgpu::Features::empty(),
+    hard: false,
+    params: &[SIZE, RADIUS, EXPONENT, BLEEDING, FORMAT, MIPS, FACES, FOCUS, BIAS],
+    views: &LAYER_NAMES,
+    shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], PASSES, PASSES_16, LOOKUP, LOOKUP_16],
+    readme: include_str!("README.md"),
+    make: |gpu, settings| {
+        let exponent = ("EXPONENT", settings.float("exponent"));
+        let half = settings.choice("format") == "16";
+        let (passes, lookup, coding) =
+            if half { (PASSES_16, LOOKUP_16, Coding::Unorm) } else { (PASSES, LOOKUP, Coding::Single) };
+        let recipe = Recipe { passes, channels: 1, coding, constants: vec![exponent] };
+        let stage = MomentStage::new(gpu, settings, &recipe);
+        let reach = stage.reach();
+        let on = |name| if settings.switch(name) { 1.0 } else { 0.0 };
+        let constants = [
+            ("MIPS", on("mips")),
+            ("BLEEDING", settings.float("bleeding")),
+            exponent,
+        ];
+        let maps = MapTechnique::staged(gpu, settings, &lookup, reach, &constants, Some(Box::new(stage)))?;
+        Ok(Box::new(maps.with_every_caster()))
+    },
+};

@@ -1,0 +1,78 @@
+//! Moment shadow maps: four moments of depth and the sharpest bound that they give.
+//!
+//! Source: Peters and Klein, "Moment Shadow Mapping", 2015.
+
+use crate::depth_maps::{BIAS, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, SHADERS, SIZE};
+use crate::moment_maps::{Coding, FORMAT, MIPS, MomentStage, PASS_LAYOUTS, RADIUS, Recipe};
+use crate::params::{Param, ParamKind};
+use crate::shader::{
+    FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, MOMENTS_DEPTH, MOMENTS_FLOAT, MOMENTS_LOOKUP, MOMENTS_MEAN, MOMENTS_PASSES,
+    MOMENTS_UNORM, RECEIVERS, Shader,
+};
+use crate::technique::TechniqueInfo;
+
+const MOMENTS: &str = include_str!("moments.wgsl");
+const MSM: &str = include_str!("msm.wgsl");
+
+const PASSES: Shader = Shader {
+    name: "msm moments",
+    parts: &[FULLSCREEN, MOMENTS_DEPTH, MOMENTS_FLOAT, MOMENTS_MEAN, MOMENTS, MOMENTS_PASSES],
+    layouts: PASS_LAYOUTS,
+};
+const PASSES_16: Shader = Shader {
+    name: "msm moments, 16 bits",
+    parts: &[FULLSCREEN, MOMENTS_DEPTH, MOMENTS_UNORM, MOMENTS_MEAN, MOMENTS, MOMENTS_PASSES],
+    layouts: PASS_LAYOUTS,
+};
+const LOOKUP: Shader = Shader {
+    name: "msm",
+    parts: &[
+        FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, MOMENTS_DEPTH, MOMENTS_FLOAT, MOMENTS, MOMENTS_LOOKUP, MSM,
+    ],
+    layouts: LOOKUP_LAYOUTS,
+};
+const LOOKUP_16: Shader = Shader {
+    name: "msm, 16 bits",
+    parts: &[
+        FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, MOMENTS_DEPTH, MOMENTS_UNORM, MOMENTS, MOMENTS_LOOKUP, MSM,
+    ],
+    layouts: LOOKUP_LAYOUTS,
+};
+
+const BLEEDING: Param = Param {
+    name: "bleeding",
+    help: "Shares of light up to this count as none, the rest is stretched: takes light that bleeds through off.",
+    unit: "",
+    kind: ParamKind::Float { min: 0.0, max: 0.9, default: 0.1 },
+};
+
+/// See the module.
+pub const INFO: TechniqueInfo = TechniqueInfo {
+    id: "msm",
+    title: "Moment shadow maps",
+    summary: "Filters four powers of depth; the sharpest bound on the share of light that they give.",
+    source: "beyond: Peters and Klein 2015",
+    lights: LIGHTS,
+    features: wgpu::Features::empty(),
+    hard: false,
+    params: &[SIZE, RADIUS, BLEEDING, FORMAT, MIPS, FACES, FOCUS, BIAS],
+    views: &LAYER_NAMES,
+    shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], PASSES, PASSES_16, LOOKUP, LOOKUP_16],
+    readme: include_str!("README.md"),
+    make: |gpu, settings| {
+        let half = settings.choice("format") == "16";
+        let (passes, lookup, coding) =
+            if half { (PASSES_16, LOOKUP_16, Coding::Unorm) } else { (PASSES, LOOKUP, Coding::Single) };
+        let recipe = Recipe { passes, channels: 4, coding, constants: Vec::new() };
+        let stage = MomentStage::new(gpu, settings, &recipe);
+        let reach = stage.reach();
+        let on = |name| if settings.switch(name) { 1.0 } else { 0.0 };
+        let constants = [
+            ("MIPS", on("mips")),
+            ("BLEEDING", settings.float("bleeding")),
+            ("MOMENT_BIAS", if half { 6e-5 } else { 1e-5 }),
+        ];
+        let maps = MapTechnique::staged(gpu, settings, &lookup, reach, &constants, Some(Box::new(stage)))?;
+        Ok(Box::new(maps.with_every_caster()))
+    },
+};

@@ -1,0 +1,13 @@
+// Moments in textures of floats, as they are.
+
+alias MomentTexture = texture_2d<f32>;
+alias MomentArray = texture_2d_array<f32>;
+alias Stored = vec4f;
+
+fn to_stored(m: vec4f) -> Stored {
+    return m;
+}
+
+fn from_stored(stored: Stored) -> vec4f {
+    return stored;
+}

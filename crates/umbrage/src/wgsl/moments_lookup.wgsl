@@ -1,0 +1,132 @@
+// Looks filtered moments up: group 2. After the technique's `moments_of`.
+
+@group(2) @binding(0) var<uniform> moments: Moments;
+@group(2) @binding(1) var moment_map: MomentArray;
+
+// Takes coarser levels where a pixel covers many texels.
+override MIPS: bool = true;
+// Shares of light up to this count as none.
+override BLEEDING: f32 = 0.0;
+
+// The receiver in linear depth.
+struct LinearPoint {
+    depth: f32,
+    // Change per texel.
+    slope: vec2f,
+}
+
+fn linear_point(point: MapPoint, crease: f32) -> LinearPoint {
+    let slope = map_slope(point);
+    let stored = point.depth + map_bias(point, slope, crease);
+    return LinearPoint(linear_depth(moments, stored), slope * linear_depth_change(moments, stored));
+}
+
+// The 3 × 3 texels around a point and the weights of a quadratic B-spline: smooth where bilinear weights show the grid, and of the
+// same variance everywhere, ¼.
+struct Spline {
+    columns: vec3i,
+    rows: vec3i,
+    // From the point to the middle texel, in texels of the level.
+    offset: vec2f,
+    x: vec3f,
+    y: vec3f,
+}
+
+fn spline_weights(f: f32) -> vec3f {
+    return vec3f(0.5 * (0.5 - f) * (0.5 - f), 0.75 - f * f, 0.5 * (0.5 + f) * (0.5 + f));
+}
+
+fn spline_at(texel: vec2f, level: i32) -> Spline {
+    let at = texel / (moments.scale * f32(1u << u32(level)));
+    let last = vec2i(textureDimensions(moment_map, level)) - 1;
+    let middle = clamp(vec2i(at), vec2i(0), last);
+    let f = clamp(at - vec2f(middle) - 0.5, vec2f(-0.5), vec2f(0.5));
+    let before = max(middle - 1, vec2i(0));
+    let after = min(middle + 1, last);
+    let columns = vec3i(before.x, middle.x, after.x);
+    let rows = vec3i(before.y, middle.y, after.y);
+    return Spline(columns, rows, -f, spline_weights(f.x), spline_weights(f.y));
+}
+
+fn moments_at(column: i32, row: i32, layer: u32, level: i32) -> vec4f {
+    return from_stored(textureLoad(moment_map, vec2i(column, row), layer, level));
+}
+
+fn moments_in_row(s: Spline, row: i32, layer: u32, level: i32) -> vec4f {
+    return s.x.x * moments_at(s.columns.x, row, layer, level)
+        + s.x.y * moments_at(s.columns.y, row, layer, level)
+        + s.x.z * moments_at(s.columns.z, row, layer, level);
+}
+
+fn moments_on(texel: vec2f, layer: u32, level: i32) -> vec4f {
+    let s = spline_at(texel, level);
+    return s.y.x * moments_in_row(s, s.rows.x, layer, level)
+        + s.y.y * moments_in_row(s, s.rows.y, layer, level)
+        + s.y.z * moments_in_row(s, s.rows.z, layer, level);
+}
+
+// How much of level `i` is in what lies between two levels.
+fn share_of_level(level: f32, i: i32) -> f32 {
+    let last = f32(textureNumLevels(moment_map) - 1u);
+    return max(1.0 - abs(clamp(level, 0.0, last) - f32(i)), 0.0);
+}
+
+// Between two levels. They are gone through in order and each load is of one level for all pixels, since the software driver takes
+// the first of 2 × 2 pixels for all of them.
+fn moments_between(texel: vec2f, layer: u32, level: f32) -> vec4f {
+    var sum = vec4f(0.0);
+    for (var i = 0; f32(i) < level + 1.0 && i < i32(textureNumLevels(moment_map)); i++) {
+        let share = share_of_level(level, i);
+        if share > 0.0 {
+            sum += share * moments_on(texel, layer, i);
+        }
+    }
+    return sum;
+}
+
+// Texels of the map that a pixel covers, as the side of a square: from the receiver's plane.
+fn texels_of_pixel(point: MapPoint, pixel: Pixel) -> f32 {
+    let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
+    let eye = map.eye.eye_from_ndc;
+    let p = eye * ndc;
+    let normal = vec4f(pixel.surface.normal, -dot(pixel.surface.normal, p.xyz) / p.w);
+    // Change of depth along the plane, per step to the right and down.
+    let plane = vec3f(dot(normal, eye[0]), dot(normal, eye[1]), dot(normal, eye[2]));
+    let change = -plane.xy / plane.z * map.eye.ndc_from_pixel;
+    let to_map = map.layers[point.layer].map_from_ndc;
+    let right = to_map[0] * map.eye.ndc_from_pixel.x + to_map[2] * change.x;
+    let down = to_map[1] * map.eye.ndc_from_pixel.y + to_map[2] * change.y;
+    let w = dot(vec4f(to_map[0].w, to_map[1].w, to_map[2].w, to_map[3].w), ndc);
+    let a = (right.xy - point.texel * right.w) / w;
+    let b = (down.xy - point.texel * down.w) / w;
+    let sum = dot(a, a) + dot(b, b);
+    let area = abs(a.x * b.y - a.y * b.x);
+    return area / sqrt(0.5 * (sum + sqrt(max(sum * sum - 4.0 * area * area, 0.0))));
+}
+
+// The level whose filter is as wide as that of level 0 and the pixel together. Level n has a variance of 4ⁿ / 3 − 1 / 12, a pixel
+// one of 1 / 12 of its square.
+fn level_of_pixel(point: MapPoint, pixel: Pixel) -> f32 {
+    if !MIPS {
+        return 0.0;
+    }
+    let side = texels_of_pixel(point, pixel) / (2.0 * moments.scale);
+    // Not a number where a surface is seen edge-on.
+    return select(0.0, log2(side), side > 1.0 && side < 65536.0);
+}
+
+// Of the filter of a level, squared texels of the map along each axis.
+fn variance_of(level: f32) -> f32 {
+    return moments.variance + moments.scale * moments.scale * (exp2(2.0 * level) - 1.0) / 3.0;
+}
+
+// The largest share of a distribution of this mean and variance that can lie at `depth` or farther (Chebyshev).
+fn largest_share(mean: f32, variance: f32, depth: f32) -> f32 {
+    let nearer = max(depth - mean, 0.0);
+    return variance / (variance + nearer * nearer);
+}
+
+// Takes what bleeds off the bottom.
+fn without_bleeding(share: f32) -> f32 {
+    return clamp((share - BLEEDING) / (1.0 - BLEEDING), 0.0, 1.0);
+}
