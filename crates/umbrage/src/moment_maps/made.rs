@@ -69,10 +69,8 @@ impl Made {
         let bytes = chain.iter().chain(&across).chain([&moments]).map(bytes_of).sum();
         let work = Workshop { gpu, pipelines, uniforms, maps, chain, across, moments: &moments };
         let layers = (0..maps.depth_or_array_layers()).map(|layer| work.passes(layer)).collect();
-        let whole = wgpu::TextureViewDescriptor {
-            dimension: Some(wgpu::TextureViewDimension::D2Array),
-            ..Default::default()
-        };
+        let whole =
+            wgpu::TextureViewDescriptor { dimension: Some(wgpu::TextureViewDimension::D2Array), ..Default::default() };
         Self { maps: maps.clone(), moments: moments.create_view(&whole), layers, bytes }
     }
 }

@@ -16,6 +16,18 @@ pub(super) fn linear_from_stored(view: &View<'_>, maps: &DepthMaps) -> [f32; 4] 
     let (mut nearest, mut farthest) = (f64::INFINITY, 0.0_f64);
     let mut points = Vec::new();
     for light_view in &maps.views {
+        if light_view.paraboloid.is_some() {
+            // Its depth is the distance from the light itself, and it sees all around.
+            let light = view.light.shape.center().truncate();
+            nearest = view
+                .casters
+                .casting_bounds()
+                .map(|b| light.clamp(b.min, b.max).distance(light))
+                .fold(nearest, f64::min);
+            let corners = view.casters.receiving_bounds().flat_map(|b| b.corners());
+            farthest = corners.map(|c| c.distance(light)).fold(farthest, f64::max);
+            continue;
+        }
         let frustum = Frustum::of(&light_view.clip_from_world);
         let ahead = light_view.clip_from_world.row(3);
         let distance = |p: &DVec3| ahead.dot(p.extend(1.0));

@@ -9,7 +9,7 @@ use umbrage_reference::closed_form::{disc_above_plane, past_half_plane, rect_abo
 
 /// The picture: columns go across the edge, rows along it, and the penumbra is a quarter of the columns wide.
 const COLUMNS: u32 = 256;
-const ROWS: u32 = 192;
+const ROWS: u32 = 64;
 const PENUMBRA: f64 = 64.0;
 
 /// Columns that are averaged before levels are looked for: a tile of noise, which rows alone do not average.
@@ -17,9 +17,6 @@ const SMOOTHED: usize = 8;
 
 /// Allowed error of width and place, as a share of the width.
 const TOLERANCE: f64 = 0.1;
-
-/// That of a grid of 7 × 7 taps, which makes steps of a seventh of the light: one case of 96 is off by 0.12.
-const GRID_TOLERANCE: f64 = 0.13;
 
 /// A light over a half-plane over a floor. The edge is on the line x = 0, y = `height`, the half-plane at x < 0, all
 /// turned around the vertical by `turn` radians with the light.
@@ -134,15 +131,10 @@ fn crossing(profile: &[f64], level: f64) -> f64 {
 }
 
 /// Runs `make`'s technique over the cases; a line for each, and whether it is right.
-fn results(
-    cases: &[Case],
-    tolerance: f64,
-    mut make: impl FnMut() -> Box<dyn Technique>,
-    gpu: &Gpu,
-) -> Vec<(String, bool)> {
+fn results(cases: &[Case], mut make: impl FnMut() -> Box<dyn Technique>, gpu: &Gpu) -> Vec<(String, bool)> {
     let mut row = |case: &Case| {
         let got = case.measure(gpu, make());
-        let right = got.middle.abs() <= tolerance && (got.width - 1.0).abs() <= tolerance;
+        let right = got.middle.abs() <= TOLERANCE && (got.width - 1.0).abs() <= TOLERANCE;
         let Penumbra { middle, width } = got;
         (format!("{:58} width × {width:.3}, middle off by {middle:+.3} of it", case.name), right)
     };
@@ -247,7 +239,7 @@ fn brute_force_has_the_penumbrae_of_the_closed_form() {
     let gpu = gpu();
     let info = find("shadow-map").unwrap();
     let make = || light_samples(info, &gpu, &info.settings(&pairs("size=512")).unwrap(), 128).unwrap();
-    let results = results(&every_case(), TOLERANCE, make, &gpu);
+    let results = results(&every_case(), make, &gpu);
     let wrong: Vec<&str> = results.iter().filter(|(_, right)| !right).map(|(row, _)| row.as_str()).collect();
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), results.len(), wrong.join("\n"));
 }
@@ -258,20 +250,20 @@ fn a_filter_of_constant_width_has_others() {
     let gpu = gpu();
     let info = find("pcf").unwrap();
     let make = || info.make(&gpu, &info.settings(&[]).unwrap()).unwrap();
-    let right: Vec<String> = results(&every_case(), TOLERANCE, make, &gpu)
-        .into_iter()
-        .filter(|(_, right)| *right)
-        .map(|(row, _)| row)
-        .collect();
+    let right: Vec<String> =
+        results(&every_case(), make, &gpu).into_iter().filter(|(_, right)| *right).map(|(row, _)| row).collect();
     assert!(right.is_empty(), "{}", right.join("\n"));
 }
 
 fn follows_the_light(cases: &[Case]) {
     let gpu = gpu();
     let mut wrong = Vec::new();
-    for (id, tolerance) in [("pcss", GRID_TOLERANCE), ("pcss-jitter", TOLERANCE)] {
-        let Ok(info) = find(id) else { continue };
-        for (row, right) in results(cases, tolerance, || info.make(&gpu, &info.settings(&[]).unwrap()).unwrap(), &gpu) {
+    // A grid of 5 × 5 taps, which `pcss` looks for blockers with by itself, gets the width of 2 of 102 cases wrong by 0.11 and
+    // 0.13: both lights are tilted and large.
+    for (id, set) in [("pcss", "search=7"), ("pcss-jitter", "")] {
+        let info = find(id).unwrap();
+        let make = || info.make(&gpu, &info.settings(&pairs(set)).unwrap()).unwrap();
+        for (row, right) in results(cases, make, &gpu) {
             println!("{id:12} {row}");
             if !right {
                 wrong.push(format!("{id}: {row}"));

@@ -2,7 +2,7 @@
 //!
 //! Source: Annen, Mertens, Seidel, Flerackers and Kautz, "Exponential Shadow Maps", 2008.
 
-use crate::depth_maps::{BIAS, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, SHADERS, SIZE};
+use crate::depth_maps::{BIAS, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE};
 use crate::moment_maps::{Coding, FORMAT, MIPS, MomentStage, PASS_LAYOUTS, RADIUS, Recipe};
 use crate::params::{Param, ParamKind};
 use crate::shader::{
@@ -27,14 +27,30 @@ const PASSES_16: Shader = Shader {
 const LOOKUP: Shader = Shader {
     name: "esm",
     parts: &[
-        FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, MOMENTS_DEPTH, MOMENTS_FLOAT, MOMENTS, MOMENTS_LOOKUP, ESM,
+        FULLSCREEN,
+        RECEIVERS,
+        MAP_LOOKUP,
+        MAP_VISIBILITY,
+        MOMENTS_DEPTH,
+        MOMENTS_FLOAT,
+        MOMENTS,
+        MOMENTS_LOOKUP,
+        ESM,
     ],
     layouts: LOOKUP_LAYOUTS,
 };
 const LOOKUP_16: Shader = Shader {
     name: "esm, 16 bits",
     parts: &[
-        FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, MOMENTS_DEPTH, MOMENTS_UNORM, MOMENTS, MOMENTS_LOOKUP, ESM,
+        FULLSCREEN,
+        RECEIVERS,
+        MAP_LOOKUP,
+        MAP_VISIBILITY,
+        MOMENTS_DEPTH,
+        MOMENTS_UNORM,
+        MOMENTS,
+        MOMENTS_LOOKUP,
+        ESM,
     ],
     layouts: LOOKUP_LAYOUTS,
 };
@@ -62,7 +78,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, RADIUS, EXPONENT, BLEEDING, FORMAT, MIPS, FACES, FOCUS, BIAS],
+    params: &[SIZE, RADIUS, EXPONENT, BLEEDING, FORMAT, MIPS, FACES, OMNI, FOCUS, BIAS],
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], PASSES, PASSES_16, LOOKUP, LOOKUP_16],
     readme: include_str!("README.md"),
@@ -75,11 +91,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
         let stage = MomentStage::new(gpu, settings, &recipe);
         let reach = stage.reach();
         let on = |name| if settings.switch(name) { 1.0 } else { 0.0 };
-        let constants = [
-            ("MIPS", on("mips")),
-            ("BLEEDING", settings.float("bleeding")),
-            exponent,
-        ];
+        let constants = [("MIPS", on("mips")), ("BLEEDING", settings.float("bleeding")), exponent];
         let maps = MapTechnique::staged(gpu, settings, &lookup, reach, &constants, Some(Box::new(stage)))?;
         Ok(Box::new(maps.with_every_caster()))
     },

@@ -2,7 +2,7 @@
 //!
 //! Source: Peters and Klein, "Moment Shadow Mapping", 2015.
 
-use crate::depth_maps::{BIAS, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, SHADERS, SIZE};
+use crate::depth_maps::{BIAS, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE};
 use crate::moment_maps::{Coding, FORMAT, MIPS, MomentStage, PASS_LAYOUTS, RADIUS, Recipe};
 use crate::params::{Param, ParamKind};
 use crate::shader::{
@@ -27,14 +27,30 @@ const PASSES_16: Shader = Shader {
 const LOOKUP: Shader = Shader {
     name: "msm",
     parts: &[
-        FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, MOMENTS_DEPTH, MOMENTS_FLOAT, MOMENTS, MOMENTS_LOOKUP, MSM,
+        FULLSCREEN,
+        RECEIVERS,
+        MAP_LOOKUP,
+        MAP_VISIBILITY,
+        MOMENTS_DEPTH,
+        MOMENTS_FLOAT,
+        MOMENTS,
+        MOMENTS_LOOKUP,
+        MSM,
     ],
     layouts: LOOKUP_LAYOUTS,
 };
 const LOOKUP_16: Shader = Shader {
     name: "msm, 16 bits",
     parts: &[
-        FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, MOMENTS_DEPTH, MOMENTS_UNORM, MOMENTS, MOMENTS_LOOKUP, MSM,
+        FULLSCREEN,
+        RECEIVERS,
+        MAP_LOOKUP,
+        MAP_VISIBILITY,
+        MOMENTS_DEPTH,
+        MOMENTS_UNORM,
+        MOMENTS,
+        MOMENTS_LOOKUP,
+        MSM,
     ],
     layouts: LOOKUP_LAYOUTS,
 };
@@ -55,7 +71,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, RADIUS, BLEEDING, FORMAT, MIPS, FACES, FOCUS, BIAS],
+    params: &[SIZE, RADIUS, BLEEDING, FORMAT, MIPS, FACES, OMNI, FOCUS, BIAS],
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], PASSES, PASSES_16, LOOKUP, LOOKUP_16],
     readme: include_str!("README.md"),

@@ -7,7 +7,9 @@ mod blur;
 mod technique;
 mod tiles;
 
-use crate::depth_maps::{BIAS, DEPTH, Eye, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE};
+use crate::depth_maps::{
+    BIAS, DEPTH, Eye, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
+};
 use crate::params::{Param, ParamKind};
 use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, RECEIVERS, Shader};
 use crate::technique::TechniqueInfo;

@@ -3,8 +3,8 @@
 //! Sources: Uralsky, "Efficient Soft-Edged Shadows Using Pixel Shader Branching", 2005; ZA 3.4.
 
 use crate::depth_maps::{
-    BIAS, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, NOISE, SHADERS, SIZE, TAP_LAYOUTS, TESTS, TILE, TapStage,
-    Taps,
+    BIAS, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, NOISE, OMNI, SHADERS, SIZE, TAP_LAYOUTS, TESTS, TILE,
+    TapStage, Taps,
 };
 use crate::params::{Param, ParamKind};
 use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_TAPS, MAP_VISIBILITY, RECEIVERS, Shader};

@@ -3,7 +3,8 @@
 //! Sources: Fernando, "Percentage-Closer Soft Shadows", 2005; ZA 3.5.
 
 use crate::depth_maps::{
-    BIAS, DEPTH, BOUNDS_SHADER, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE, TAP_LAYOUTS, TapStage, Taps,
+    BIAS, BOUNDS_SHADER, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE, TAP_LAYOUTS,
+    TapStage, Taps,
 };
 use crate::params::{Param, ParamKind};
 use crate::shader::{

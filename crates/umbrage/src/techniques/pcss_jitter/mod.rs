@@ -3,8 +3,8 @@
 //! Sources: ZA 4.4.1 and 4.4.3, and 3.5 (Fernando, "Percentage-Closer Soft Shadows", 2005).
 
 use crate::depth_maps::{
-    BIAS, DEPTH, BOUNDS_SHADER, FACES, FOCUS, GRADIENT_NOISE, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE, TAP_LAYOUTS,
-    TESTS, TILE, TapStage, Taps,
+    BIAS, BOUNDS_SHADER, DEPTH, FACES, FOCUS, GRADIENT_NOISE, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE,
+    TAP_LAYOUTS, TESTS, TILE, TapStage, Taps,
 };
 use crate::params::{Param, ParamKind};
 use crate::shader::{
