@@ -1,142 +1,111 @@
-// A Gaussian over neighbouring pixels along rows or columns (ZA 3.3), only in tiles around which values differ.
-
-struct Blur {
-    eye: Eye,
-    // The light relative to the eye, homogeneous.
-    light: vec4f,
-}
-
-struct TileList {
-    blurred: u32,
-    beside: u32,
-    tiles: array<u32>,
-}
+// A Gaussian along rows or columns (ZA 3.3), two by two pixels at a time: `fn quad_at(quad: vec2i) -> vec4u` gives those of a quad as words in
+// the order of `quad_pixels`, so that the axis runs from the first to the second and from the third to the fourth.
+//
+// A word is a visibility in its low 8 bits, on top of that the distance of the depth from that of the background, and as its sign
+// whether the surface faces away from the light.
 
 @group(1) @binding(0) var<uniform> blur: Blur;
-@group(1) @binding(1) var source: texture_2d<f32>;
-@group(1) @binding(2) var<storage, read> list: TileList;
+@group(1) @binding(1) var<storage, read> list: TileList;
 
-// Pixels across and down a tile.
-override TILE: i32 = 8;
-// Draws tiles that are only read, else those that are blurred.
-override BESIDE: bool = false;
-// Along rows, or along columns.
-override ALONG_ROWS: bool = true;
-// Taps on each side, and pixels from one to the next.
-override TAPS: i32 = 4;
-override STEP: f32 = 1.0;
-// Weight of the first tap on each side, where the middle has 1.
-override FALLOFF: f32 = 0.88;
+// Two standard deviations, pixels.
+override RADIUS: f32 = 4.0;
 // Only what lies on the surface of the pixel counts.
 override DEPTH_AWARE: bool = true;
 
-const GROUP: u32 = 64u;
-
 // How far a neighbour may be off the plane of the pixel, as a share of how far away it is.
 override OFF_PLANE: f32 = 0.5;
-override NORMALS: bool = true;
 
-fn corner_of_tile(number: u32, corner: u32) -> vec4f {
-    let across = u32((i32(textureDimensions(source).x) + TILE - 1) / TILE);
-    let tile = vec2i(vec2u(number % across, number / across));
-    let step = vec2i(i32(corner == 1u || corner >= 4u), i32(corner == 2u || corner == 3u || corner == 5u));
-    return vec4f(vec2f((tile + step) * TILE) * blur.eye.ndc_from_pixel + vec2f(-1.0, 1.0), 0.0, 1.0);
+const VALUE: u32 = 0xffu;
+const SIGN: u32 = 0x80000000u;
+
+// Four pixels of a quad.
+struct Pixels {
+    words: vec4u,
+    depth: vec4f,
+    // Of depth per pixel along the axis: change, and what is still on the surface.
+    slope: vec4f,
+    tolerance: vec4f,
+    // Weighted visibility, and weights.
+    sum: vec4f,
+    total: vec4f,
 }
 
-const NOWHERE: vec4f = vec4f(2.0, 2.0, 0.0, 1.0);
-
-// Two triangles a tile.
-@vertex
-fn fullscreen(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32) -> @builtin(position) vec4f {
-    let place = group * GROUP + vertex / 6u;
-    if place >= select(list.blurred, list.beside, BESIDE) {
-        return NOWHERE;
-    }
-    let index = select(place, arrayLength(&list.tiles) - 1u - place, BESIDE);
-    return corner_of_tile(list.tiles[index], vertex % 6u);
+fn depth_of(words: vec4u) -> vec4f {
+    return bitcast<vec4f>(words & vec4u(~(SIGN | VALUE)));
 }
 
-// The plane that a pixel shows, over normalised device coordinates and times the length of its normal.
-struct Plane {
-    // Distance from it per pixel along the axis, and per depth.
-    per_pixel: f32,
-    per_depth: f32,
-    depth: f32,
-    // What counts as on it: per pixel, and by rounding.
-    tolerance: f32,
-    rounding: f32,
-    // From the point to the light, and the side it is on.
-    light: vec3f,
-    facing: f32,
+fn value_of(words: vec4u) -> vec4f {
+    return vec4f(words & vec4u(VALUE));
 }
 
-// Distances are times w: on perspective pictures what a pixel spans is then a constant, as it is on parallel ones.
-fn plane_of(at: vec2f, depth: f32) -> Plane {
-    let normal = surface(blur.eye, at, depth).normal;
-    let m = blur.eye.eye_from_ndc;
-    let p = m * ndc_of(blur.eye, at, depth);
-    let here = p.xyz / p.w;
-    let own = dot(normal, here);
-    let along = select(m[1] * blur.eye.ndc_from_pixel.y, m[0] * blur.eye.ndc_from_pixel.x, ALONG_ROWS);
-    let size = length(normal);
-    var plane: Plane;
-    plane.per_pixel = dot(normal, along.xyz) - own * along.w;
-    plane.per_depth = dot(normal, m[2].xyz) - own * m[2].w;
-    plane.depth = depth;
-    plane.tolerance = OFF_PLANE * size * length(along.xyz);
-    plane.rounding = size * position_rounding(blur.eye, depth, 1.0 / p.w) * abs(p.w);
-    plane.light = blur.light.xyz - here * blur.light.w;
-    plane.facing = dot(normal, plane.light);
-    return plane;
+// Depth is linear on a plane. The surface goes on to the side where it changes least.
+fn pixels_of(words: vec4u, before: vec4u, after: vec4u) -> Pixels {
+    let depth = depth_of(words);
+    let back = depth - depth_of(vec4u(before.y, words.x, before.w, words.z));
+    let ahead = depth_of(vec4u(words.y, after.x, words.w, after.z)) - depth;
+    let slope = select(back, ahead, abs(ahead) < abs(back));
+    let off = OFF_PLANE * (blur.pixel_depth.x * depth + blur.pixel_depth.y + abs(slope));
+    let rounding = blur.rounding.x * depth + blur.rounding.y;
+    return Pixels(words, depth, slope, off + rounding, value_of(words), vec4f(1.0));
 }
 
-fn is_on(plane: Plane, pixel: vec2i, offset: f32, depth: f32) -> bool {
-    let off = plane.per_pixel * offset + plane.per_depth * (depth - plane.depth);
-    let on = abs(off) <= plane.tolerance * abs(offset) + plane.rounding;
-    if HAS_NORMALS && NORMALS {
-        // Nor does the dark of what is turned away from the light reach what faces it.
-        let normal = unpack_normal(textureLoad(receiver_normal, pixel, 0).x);
-        return on && dot(normal, plane.light) * plane.facing >= 0.0;
-    }
-    return on;
+fn weight(offset: f32) -> f32 {
+    return select(0.0, exp2(-2.885390082 * offset * offset / (RADIUS * RADIUS)), abs(offset) <= RADIUS);
 }
 
-fn neighbour(pixel: vec2i, tap: i32) -> vec2i {
-    let offset = i32(round(f32(tap) * STEP));
-    let last = vec2i(textureDimensions(source)) - 1;
-    return clamp(pixel + select(vec2i(0, offset), vec2i(offset, 0), ALONG_ROWS), vec2i(0), last);
-}
-
-@fragment
-fn unchanged(@builtin(position) at: vec4f) -> @location(0) f32 {
-    return textureLoad(source, vec2i(at.xy), 0).x;
-}
-
-@fragment
-fn blurred(@builtin(position) at: vec4f) -> @location(0) f32 {
-    let pixel = vec2i(at.xy);
-    let own = textureLoad(source, pixel, 0).x;
-    let depth = textureLoad(receiver_depth, pixel, 0);
-    var plane: Plane;
+fn add(pixels: ptr<function, Pixels>, words: vec4u, offset: vec4f, weights: vec4f) {
+    let depth = depth_of(words);
+    var counts = depth > vec4f(0.0);
     if DEPTH_AWARE {
-        plane = plane_of(at.xy, depth);
+        let off = depth - (*pixels).depth - (*pixels).slope * offset;
+        counts &= abs(off) <= (*pixels).tolerance * abs(offset);
+        counts &= ((words ^ (*pixels).words) & vec4u(SIGN)) == vec4u(0u);
     }
-    var sum = vec2f(own, 1.0);
-    var weight = 1.0;
-    var falloff = FALLOFF;
-    for (var tap = 1; tap <= TAPS; tap++) {
-        weight *= falloff;
-        falloff *= FALLOFF * FALLOFF;
-        for (var side = -1; side <= 1; side += 2) {
-            let other = neighbour(pixel, side * tap);
-            let other_depth = textureLoad(receiver_depth, other, 0);
-            let steps = other - pixel;
-            var counts = other_depth != blur.eye.background_depth;
-            if DEPTH_AWARE {
-                counts = counts && is_on(plane, other, f32(steps.x + steps.y), other_depth);
-            }
-            sum += select(0.0, weight, counts) * vec2f(textureLoad(source, other, 0).x, 1.0);
-        }
+    let counted = select(vec4f(0.0), weights, counts);
+    (*pixels).sum += counted * value_of(words);
+    (*pixels).total += counted;
+}
+
+// Adds what a quad so many quads away has.
+fn add_quad(pixels: ptr<function, Pixels>, words: vec4u, quads: i32) {
+    let offset = f32(2 * quads) - vec4f(0.0, 1.0, 0.0, 1.0);
+    let weights = vec3f(weight(f32(2 * quads - 1)), weight(f32(2 * quads)), weight(f32(2 * quads + 1)));
+    add(pixels, words.xxzz, offset, weights.yxyx);
+    add(pixels, words.yyww, offset + 1.0, weights.zyzy);
+}
+
+fn blurred_quad(quad: vec2i, axis: vec2i) -> Pixels {
+    let own = quad_at(quad);
+    let before = quad_at(quad - axis);
+    let after = quad_at(quad + axis);
+    var pixels = pixels_of(own, before, after);
+    // The other one of the pair.
+    add(&pixels, own.yxwz, vec4f(1.0, -1.0, 1.0, -1.0), vec4f(weight(1.0)));
+    add_quad(&pixels, before, -1);
+    add_quad(&pixels, after, 1);
+    for (var i = 2; i <= i32(ceil(0.5 * RADIUS)); i++) {
+        add_quad(&pixels, quad_at(quad - i * axis), -i);
+        add_quad(&pixels, quad_at(quad + i * axis), i);
     }
-    return select(sum.x / sum.y, own, depth == blur.eye.background_depth);
+    return pixels;
+}
+
+fn value(pixels: Pixels) -> vec4f {
+    let own = value_of(pixels.words);
+    return select(pixels.sum / pixels.total, own, pixels.depth == vec4f(0.0));
+}
+
+// Quads that a workgroup blurs.
+const QUADS: u32 = 64u;
+
+// The quad that an invocation is for: in which tile, and where in it.
+struct Place {
+    tile: u32,
+    quad: vec2u,
+}
+
+fn place_of(group: vec3u, groups: vec3u, index: u32) -> Place {
+    let number = (group.y * groups.x + group.x) * QUADS + index;
+    let in_tile = number % (BLOCK * BLOCK);
+    return Place(number / (BLOCK * BLOCK), vec2u(in_tile % BLOCK, in_tile / BLOCK));
 }

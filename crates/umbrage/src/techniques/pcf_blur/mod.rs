@@ -8,24 +8,31 @@ mod technique;
 mod tiles;
 
 use crate::depth_maps::{
-    BIAS, DEPTH, Eye, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
+    BIAS, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
 };
 use crate::params::{Param, ParamKind};
-use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, RECEIVERS, Shader};
+use crate::shader::{FULLSCREEN, MAP_LOOKUP, RECEIVERS, Shader};
 use crate::technique::TechniqueInfo;
 use blur::{Blur, ScreenBlur};
 use technique::Blurred;
 
 const SOURCE_SHADER: Shader = Shader {
     name: "pcf-blur source",
-    parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, include_str!("source.wgsl")],
+    parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, include_str!("source.wgsl")],
     layouts: LOOKUP_LAYOUTS,
 };
 
-const TILES_SHADER: Shader = Shader { name: "pcf-blur tiles", parts: &[include_str!("tiles.wgsl")], layouts: &[] };
+const HEAD: &str = include_str!("head.wgsl");
+const BLUR: &str = include_str!("blur.wgsl");
 
-const BLUR_SHADER: Shader =
-    Shader { name: "pcf-blur", parts: &[RECEIVERS, include_str!("blur.wgsl")], layouts: &[Eye::LAYOUT, Blur::LAYOUT] };
+const fn shader(name: &'static str, parts: &'static [&'static str]) -> Shader {
+    Shader { name, parts, layouts: &[Blur::LAYOUT] }
+}
+
+const TILES_SHADER: Shader = shader("pcf-blur tiles", &[HEAD, include_str!("tiles.wgsl")]);
+const ROWS_SHADER: Shader = shader("pcf-blur rows", &[RECEIVERS, HEAD, BLUR, include_str!("rows.wgsl")]);
+const COLUMNS_SHADER: Shader = shader("pcf-blur columns", &[HEAD, BLUR, include_str!("columns.wgsl")]);
+const RESULT_SHADER: Shader = shader("pcf-blur result", &[HEAD, include_str!("result.wgsl")]);
 
 const SOURCE: Param = Param {
     name: "source",
@@ -60,7 +67,16 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     hard: false,
     params: &[SIZE, SOURCE, RADIUS, DEPTH_AWARE, FACES, OMNI, DEPTH, FOCUS, BIAS],
     views: &LAYER_NAMES,
-    shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], SOURCE_SHADER, TILES_SHADER, BLUR_SHADER],
+    shaders: &[
+        SHADERS[0],
+        SHADERS[1],
+        SHADERS[2],
+        SOURCE_SHADER,
+        TILES_SHADER,
+        ROWS_SHADER,
+        COLUMNS_SHADER,
+        RESULT_SHADER,
+    ],
     readme: include_str!("README.md"),
     make: |gpu, settings| {
         let is_hard = settings.choice("source") == "hard";

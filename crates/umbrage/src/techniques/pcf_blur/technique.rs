@@ -38,7 +38,7 @@ impl Technique for Blurred {
     fn stats(&self) -> Stats {
         let mut stats = self.source.stats();
         if let Some(blur) = &self.blur {
-            stats.draws += 3;
+            stats.draws += 1;
             stats.triangles += blur.triangles();
             stats.bytes += blur.bytes();
         }

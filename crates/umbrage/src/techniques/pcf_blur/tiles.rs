@@ -1,26 +1,36 @@
-//! Finds the tiles of a visibility target around which values differ, and lists them for indirect draws.
+//! Finds the tiles of a visibility target around which values differ, and lists them.
 
 use super::TILES_SHADER;
 use crate::fullscreen::{self, FLOATS, bind, layout};
-use crate::{gpu::Gpu, passes::Passes, visibility::VisibilityTarget};
-
-/// Tiles that an instance draws, see `blur.wgsl`.
-const GROUP: u32 = 64;
+use crate::{gpu::Gpu, visibility::VisibilityTarget};
 
 /// Blocks or tiles across and down a workgroup.
 const WORKGROUP: u32 = 8;
 
-/// Numbers before the tiles of a list.
-const HEADER: [u32; 2] = [0; 2];
+/// Bytes before the tiles of a list.
+const HEADER: u64 = 8;
 
-/// No instance yet.
-const DRAW: [u32; 4] = [6 * GROUP, 0, 0, 0];
+/// Bytes of the arguments of a dispatch or a draw, and how many there are.
+const ARGUMENTS: u64 = 16;
+const CALLS: u64 = 3;
 
-/// Lists of tiles.
+/// What is done with listed tiles.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Call {
+    /// A dispatch over those that are blurred.
+    Blurred,
+    /// A dispatch over those above and below them.
+    Beside,
+    /// A draw of those that are blurred.
+    Result,
+}
+
+/// Lists tiles.
 pub(super) struct Tiles {
     /// Pixels across and down a block; a tile is two across and down.
     block: u32,
     layout: wgpu::BindGroupLayout,
+    nearest: wgpu::Sampler,
     /// Blocks, tiles, their number.
     pipelines: [wgpu::ComputePipeline; 3],
 }
@@ -29,54 +39,44 @@ pub(super) struct Tiles {
 pub(super) struct TileLists {
     /// Blocks across and down.
     blocks: (u32, u32),
-    values: wgpu::Buffer,
-    /// Read by the vertex shader of `blur.wgsl`.
+    ranges: wgpu::Buffer,
+    /// As `head.wgsl` declares it.
     pub list: wgpu::Buffer,
     arguments: wgpu::Buffer,
 }
 
 impl Tiles {
     /// For blurs that reach so many pixels.
-    pub fn new(gpu: &Gpu, reach: u32) -> Self {
+    pub fn new(gpu: &Gpu, reach: u32, depth_aware: bool) -> Self {
         let block = reach.next_power_of_two().max(4);
         let written = wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Storage { read_only: false },
             has_dynamic_offset: false,
             min_binding_size: None,
         };
-        let bindings = [fullscreen::texture(FLOATS), written, written, written];
+        let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
+        let bindings = [fullscreen::texture(FLOATS), sampler, written, written, written];
         let layout = layout(gpu, "tiles", wgpu::ShaderStages::COMPUTE, &bindings);
         let module = TILES_SHADER.module(gpu);
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &[Some(&layout)],
-            ..Default::default()
-        });
-        let constants = [("BLOCK", f64::from(block))];
-        let pipelines = ["find_blocks", "find_tiles", "group_tiles"].map(|entry| {
-            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry),
-                layout: Some(&pipeline_layout),
-                module: &module,
-                entry_point: Some(entry),
-                compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
-                cache: None,
-            })
-        });
-        Self { block, layout, pipelines }
+        let constants = [("BLOCK", f64::from(block)), ("DEPTH_AWARE", f64::from(u8::from(depth_aware)))];
+        let pipelines = ["find_blocks", "find_tiles", "count_tiles"]
+            .map(|entry| super::blur::compute(gpu, &module, entry, &[&layout], &constants));
+        let nearest = gpu.device.create_sampler(&Default::default());
+        Self { block, layout, nearest, pipelines }
     }
 
-    /// Pixels across and down a tile.
-    pub fn size(&self) -> u32 {
-        2 * self.block
+    /// Pixels across and down a block.
+    pub fn block(&self) -> u32 {
+        self.block
     }
 
     pub fn lists(&self, gpu: &Gpu, (width, height): (u32, u32)) -> TileLists {
         let blocks = (width.div_ceil(self.block), height.div_ceil(self.block));
         let tiles = u64::from(blocks.0.div_ceil(2)) * u64::from(blocks.1.div_ceil(2));
-        let buffer = |label, words: u64, usage| {
+        let buffer = |label, size, usage| {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
-                size: 4 * words,
+                size,
                 usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | usage,
                 mapped_at_creation: false,
             })
@@ -84,16 +84,17 @@ impl Tiles {
         let none = wgpu::BufferUsages::empty();
         TileLists {
             blocks,
-            values: buffer("blocks", u64::from(blocks.0) * u64::from(blocks.1), none),
-            list: buffer("tiles", HEADER.len() as u64 + tiles, none),
-            arguments: buffer("draws of tiles", 2 * DRAW.len() as u64, wgpu::BufferUsages::INDIRECT),
+            ranges: buffer("blocks", 8 * u64::from(blocks.0) * u64::from(blocks.1), none),
+            list: buffer("tiles", HEADER + 4 * tiles, none),
+            arguments: buffer("calls of tiles", ARGUMENTS * CALLS, wgpu::BufferUsages::INDIRECT),
         }
     }
 
     pub fn bind(&self, gpu: &Gpu, target: &VisibilityTarget, lists: &TileLists) -> wgpu::BindGroup {
         let resources = [
             wgpu::BindingResource::TextureView(&target.view),
-            lists.values.as_entire_binding(),
+            wgpu::BindingResource::Sampler(&self.nearest),
+            lists.ranges.as_entire_binding(),
             lists.list.as_entire_binding(),
             lists.arguments.as_entire_binding(),
         ];
@@ -101,10 +102,11 @@ impl Tiles {
     }
 
     /// Fills the lists that `bind_group` is of.
-    pub fn record(&self, passes: &mut Passes<'_>, lists: &TileLists, bind_group: &wgpu::BindGroup) {
-        passes.upload(&lists.list, bytemuck::bytes_of(&HEADER));
-        passes.upload(&lists.arguments, bytemuck::bytes_of(&[DRAW; 2]));
-        let mut pass = passes.compute("tiles");
+    pub fn record(&self, encoder: &mut wgpu::CommandEncoder, lists: &TileLists) {
+        encoder.clear_buffer(&lists.list, 0, Some(HEADER));
+    }
+
+    pub fn find(&self, pass: &mut wgpu::ComputePass<'_>, lists: &TileLists, bind_group: &wgpu::BindGroup) {
         pass.set_bind_group(0, bind_group, &[]);
         let (across, down) = lists.blocks;
         for (pipeline, share) in self.pipelines.iter().zip([WORKGROUP, 2 * WORKGROUP, u32::MAX]) {
@@ -120,17 +122,15 @@ impl TileLists {
         u64::from(self.blocks.0.div_ceil(2)) * u64::from(self.blocks.1.div_ceil(2))
     }
 
-    /// Draws the tiles that are blurred.
-    pub fn draw_blurred(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.draw_indirect(&self.arguments, 0);
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, call: Call) {
+        pass.draw_indirect(&self.arguments, call as u64 * ARGUMENTS);
     }
 
-    /// Draws the tiles beside them.
-    pub fn draw_beside(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.draw_indirect(&self.arguments, size_of_val(&DRAW) as u64);
+    pub fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>, call: Call) {
+        pass.dispatch_workgroups_indirect(&self.arguments, call as u64 * ARGUMENTS);
     }
 
     pub fn bytes(&self) -> u64 {
-        self.values.size() + self.list.size() + self.arguments.size()
+        self.ranges.size() + self.list.size() + self.arguments.size()
     }
 }

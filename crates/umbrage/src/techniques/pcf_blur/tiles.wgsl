@@ -1,4 +1,4 @@
-// Finds the tiles around which visibility differs. A tile is two blocks across and down, a block no less than the radius.
+// Finds the tiles around which visibility differs.
 
 struct TileCounts {
     blurred: atomic<u32>,
@@ -7,41 +7,58 @@ struct TileCounts {
 }
 
 @group(0) @binding(0) var source: texture_2d<f32>;
-// The value of each block, or MIXED.
-@group(0) @binding(1) var<storage, read_write> blocks: array<f32>;
-@group(0) @binding(2) var<storage, read_write> list: TileCounts;
-// Arguments of two indirect draws.
-@group(0) @binding(3) var<storage, read_write> draws: array<u32, 8>;
+@group(0) @binding(1) var nearest: sampler;
+// Smallest and largest value of each block.
+@group(0) @binding(2) var<storage, read_write> blocks: array<vec2f>;
+@group(0) @binding(3) var<storage, read_write> list: TileCounts;
+// Arguments of two dispatches and a draw.
+@group(0) @binding(4) var<storage, read_write> arguments: array<vec4u, 3>;
 
-// Pixels across and down a block.
-override BLOCK: i32 = 4;
+// What is in its own shadow stays so, and does not count.
+override DEPTH_AWARE: bool = true;
 
-const MIXED: f32 = -1.0;
-const GROUP: u32 = 64u;
+// Nothing that counts.
+const NONE: vec2f = vec2f(2.0, -1.0);
+
+// Quads of pixels that a workgroup blurs, tiles that an instance draws.
+const QUADS: u32 = 64u;
+const TILES: u32 = 64u;
+// Workgroups in a row, the most that every adapter allows.
+const ROW: u32 = 65535u;
 
 fn block_count() -> vec2i {
-    return (vec2i(textureDimensions(source)) + BLOCK - 1) / BLOCK;
+    return vec2i((textureDimensions(source) + BLOCK - 1u) / BLOCK);
+}
+
+fn range_of(values: vec4f) -> vec2f {
+    let counts = (values != vec4f(OWN_SHADOW)) | vec4<bool>(!DEPTH_AWARE);
+    let low = select(vec4f(NONE.x), values, counts);
+    let high = select(vec4f(NONE.y), values, counts);
+    return vec2f(min(min(low.x, low.y), min(low.z, low.w)), max(max(high.x, high.y), max(high.z, high.w)));
+}
+
+fn both(a: vec2f, b: vec2f) -> vec2f {
+    return vec2f(min(a.x, b.x), max(a.y, b.y));
 }
 
 @compute @workgroup_size(8, 8)
 fn find_blocks(@builtin(global_invocation_id) id: vec3u) {
-    let block = vec2i(id.xy);
     let count = block_count();
-    if any(block >= count) {
+    if any(vec2i(id.xy) >= count) {
         return;
     }
-    let last = vec2i(textureDimensions(source)) - 1;
-    let first = block * BLOCK;
-    let value = textureLoad(source, first, 0).x;
-    var is_mixed = false;
-    for (var y = 0; y < BLOCK; y++) {
-        for (var x = 0; x < BLOCK; x++) {
-            is_mixed |= textureLoad(source, min(first + vec2i(x, y), last), 0).x != value;
+    let size = vec2f(textureDimensions(source));
+    var range = NONE;
+    for (var y = 1u; y < BLOCK; y += 2u) {
+        for (var x = 1u; x < BLOCK; x += 2u) {
+            let corner = vec2f(id.xy * BLOCK + vec2u(x, y));
+            range = both(range, range_of(textureGather(0, source, nearest, corner / size)));
         }
     }
-    blocks[block.y * count.x + block.x] = select(value, MIXED, is_mixed);
+    blocks[id.y * u32(count.x) + id.x] = range;
 }
 
+// Rows are blurred first. Blurring columns then reads what is above and below a tile, which has to be there.
 @compute @workgroup_size(8, 8)
 fn find_tiles(@builtin(global_invocation_id) id: vec3u) {
     let count = block_count();
@@ -50,28 +67,33 @@ fn find_tiles(@builtin(global_invocation_id) id: vec3u) {
     if any(tile >= tiles) {
         return;
     }
-    let own = blocks[2 * tile.y * count.x + 2 * tile.x];
-    var differs = own == MIXED;
-    var differs_above_or_below = differs;
+    var around = NONE;
+    var above_and_below = NONE;
     for (var y = -3; y <= 4; y++) {
         for (var x = -1; x <= 2; x++) {
             let block = clamp(2 * tile + vec2i(x, y), vec2i(0), count - 1);
-            let is_other = blocks[block.y * count.x + block.x] != own;
-            differs_above_or_below |= is_other;
-            differs |= is_other && y >= -1 && y <= 2;
+            let range = blocks[block.y * count.x + block.x];
+            above_and_below = both(above_and_below, range);
+            around = both(around, select(NONE, range, y >= -1 && y <= 2));
         }
     }
-    let number = u32(tile.y * tiles.x + tile.x);
-    if differs {
-        list.tiles[atomicAdd(&list.blurred, 1u)] = number;
-    } else if differs_above_or_below {
-        list.tiles[arrayLength(&list.tiles) - 1u - atomicAdd(&list.beside, 1u)] = number;
+    let entry = id.x | (id.y << 16u);
+    if around.x < around.y {
+        list.tiles[atomicAdd(&list.blurred, 1u)] = entry;
+    } else if above_and_below.x < above_and_below.y {
+        list.tiles[arrayLength(&list.tiles) - 1u - atomicAdd(&list.beside, 1u)] = entry;
     }
 }
 
-// Each instance draws a group of tiles.
+fn dispatch_of(tiles: u32) -> vec4u {
+    let groups = (tiles * BLOCK * BLOCK + QUADS - 1u) / QUADS;
+    return vec4u(min(groups, ROW), (groups + ROW - 1u) / ROW, 1u, 0u);
+}
+
 @compute @workgroup_size(1)
-fn group_tiles() {
-    draws[1] = (atomicLoad(&list.blurred) + GROUP - 1u) / GROUP;
-    draws[5] = (atomicLoad(&list.beside) + GROUP - 1u) / GROUP;
+fn count_tiles() {
+    let blurred = atomicLoad(&list.blurred);
+    arguments[0] = dispatch_of(blurred);
+    arguments[1] = dispatch_of(atomicLoad(&list.beside));
+    arguments[2] = vec4u(6u * TILES, (blurred + TILES - 1u) / TILES, 0u, 0u);
 }
