@@ -12,7 +12,7 @@ mod perspective;
 mod rect;
 
 use crate::{bounds::Bounds, camera::CameraView, frustum::Frustum, light::LightShape};
-use glam::{DMat4, DVec2, DVec3};
+use glam::{DMat3, DMat4, DVec2, DVec3};
 pub use on_screen::texel_on_screen;
 pub use paraboloid::Paraboloid;
 
@@ -116,6 +116,29 @@ impl LightView {
     /// True for views from a point.
     pub fn is_perspective(&self) -> bool {
         self.clip_from_world.row(3).truncate().length_squared() > 0.0
+    }
+
+    /// Where a perspective view is from.
+    pub fn eye(&self) -> DVec3 {
+        let rows = [0, 1, 3].map(|i| self.clip_from_world.row(i));
+        let axes = DMat3::from_cols(rows[0].truncate(), rows[1].truncate(), rows[2].truncate()).transpose();
+        axes.inverse() * -DVec3::new(rows[0].w, rows[1].w, rows[2].w)
+    }
+
+    /// The same view with `factor` times as much around its middle.
+    pub fn widened(&self, factor: f64) -> Self {
+        let mut view = self.clone();
+        match &mut view.paraboloid {
+            Some(paraboloid) => {
+                paraboloid.scale /= factor;
+                paraboloid.axis /= factor;
+            }
+            None => {
+                let less = DVec3::new(1.0 / factor, 1.0 / factor, 1.0);
+                view.clip_from_world = DMat4::from_scale(less) * view.clip_from_world;
+            }
+        }
+        view
     }
 
     /// Normalised device coordinates and stored depth of a point; `None` behind the view.

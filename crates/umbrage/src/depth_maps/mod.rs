@@ -2,6 +2,7 @@
 //! through `wgsl/map_lookup.wgsl`.
 
 mod bounds;
+mod extent;
 mod lookup;
 mod params;
 mod phases;
@@ -207,7 +208,7 @@ impl DepthMaps {
         }
         self.layout = fit(&view.light.shape, &view.camera, &self.scene, &to_fit, &mut self.views);
         if self.soft && !self.views.is_empty() {
-            to_fit.border_texels += uniforms::light_border(&view.light.shape, self);
+            to_fit.border_texels += extent::light_border(&view.light.shape, self);
             self.layout = fit(&view.light.shape, &view.camera, &self.scene, &to_fit, &mut self.views);
         }
         if self.views.is_empty() {

@@ -1,10 +1,10 @@
 //! What the shader that looks maps up has to know: the eye, the views and the light's extent.
 
 use super::DepthMaps;
+use super::extent::{LightExtent, nearest};
 use crate::{shader::shader_struct, view::View};
 use umbrage_core::glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use umbrage_core::light_view::{FARTHEST, LightView, Paraboloid};
-use umbrage_core::{Bounds, Frustum, LightShape};
 
 shader_struct! {
     /// What the shaders that draw a map need, see `wgsl/map_depth.wgsl`.
@@ -45,24 +45,6 @@ shader_struct! {
         texel_w: [f32; 3],
         pad_f: f32,
         axis: [f32; 4],
-    }
-}
-
-shader_struct! {
-    /// The light as a surface, see `wgsl/map_lookup.wgsl`.
-    pub(crate) struct LightExtent {
-        right: [f32; 3],
-        pad: f32,
-        up: [f32; 3],
-        pad_a: f32,
-        ahead: [f32; 3],
-        pad_b: f32,
-        unit_right: [f32; 3],
-        pad_c: f32,
-        unit_up: [f32; 3],
-        pad_d: f32,
-        unit_ahead: [f32; 3],
-        pad_e: f32,
     }
 }
 
@@ -226,126 +208,27 @@ impl InTexels {
     }
 }
 
+/// Of a view from a point: the texel straight ahead, and what a texel spans of the plane, that at distance 1 ahead or a
+/// paraboloid's.
+pub(super) fn texels_in_plane(view: &LightView) -> [DVec2; 2] {
+    match &view.paraboloid {
+        Some(paraboloid) => {
+            let InTexels { axis, per_unit } = InTexels::of(view.size, paraboloid);
+            [axis, per_unit.recip()]
+        }
+        None => {
+            let axis = axis(&(texels_from_clip(view.size) * view.clip_from_world));
+            [axis.truncate().truncate(), DVec2::new(axis.z, axis.w)]
+        }
+    }
+}
+
 /// Of a perspective view the texel straight ahead and the tangent that a texel spans, of a parallel one the metres it spans.
 fn axis(map_from_world: &DMat4) -> DVec4 {
     let [across, down, ahead] = [0, 1, 3].map(|i| map_from_world.row(i).truncate());
     let straight = DVec2::new(across.dot(ahead), down.dot(ahead));
     let per_texel = |row: DVec3, straight: f64| 1.0 / (row - ahead * straight).length().max(f64::MIN_POSITIVE);
     straight.extend(per_texel(across, straight.x)).extend(per_texel(down, straight.y))
-}
-
-/// Narrowest half axis of a round light over its widest: what is flatter than that has no direction of its own.
-const FLATTEST: f64 = 1e-4;
-
-impl LightExtent {
-    fn of(shape: &LightShape) -> Self {
-        match *shape {
-            LightShape::Point { .. } | LightShape::Spot { .. } => Self::round(DMat3::IDENTITY, DVec3::ZERO),
-            LightShape::Directional { direction, angle_deg } => {
-                let tangent = (angle_deg * 0.5).to_radians().clamp(0.0, 1.5).tan();
-                let (right, up) = direction.any_orthonormal_pair();
-                Self::flat(right * tangent, up * tangent, direction)
-            }
-            LightShape::Sphere { radius, .. } => Self::round(DMat3::IDENTITY, DVec3::splat(radius)),
-            LightShape::Ellipsoid { radii, rotation, .. } => Self::round(rotation, radii),
-            LightShape::Disc { direction, radius, .. } => {
-                let (right, up) = direction.any_orthonormal_pair();
-                Self::flat(right * radius, up * radius, direction)
-            }
-            LightShape::Rect { direction, up, size, .. } => {
-                Self::flat(up.cross(direction) * (size.x * 0.5), up * (size.y * 0.5), direction)
-            }
-            LightShape::Line { from, to } => Self::flat((to - from) * 0.5, DVec3::ZERO, DVec3::ZERO),
-        }
-    }
-
-    fn round(rotation: DMat3, radii: DVec3) -> Self {
-        let widest = radii.max_element();
-        // To where it is a ball, times the widest radius; a light without extent is a ball too.
-        let narrow = if widest > 0.0 { (radii / widest).max(DVec3::splat(FLATTEST)) } else { DVec3::ONE };
-        let axis = |i: usize| (rotation.col(i) * radii[i]).as_vec3().to_array();
-        let unit = |i: usize| (rotation.col(i) / narrow[i]).as_vec3().to_array();
-        Self {
-            right: axis(0),
-            up: axis(1),
-            ahead: axis(2),
-            unit_right: unit(0),
-            unit_up: unit(1),
-            unit_ahead: unit(2),
-            ..Self::default()
-        }
-    }
-
-    fn flat(right: DVec3, up: DVec3, normal: DVec3) -> Self {
-        let [right, up, unit_ahead] = [right, up, normal].map(|v| v.as_vec3().to_array());
-        Self { right, up, unit_ahead, ..Self::default() }
-    }
-}
-
-/// How many texels around a receiver's own place may show what hides the light's rim from it: the light's size seen from the
-/// nearest caster in front of the farthest receiver.
-pub(super) fn light_border(light: &LightShape, maps: &DepthMaps) -> f64 {
-    let radius = match *light {
-        LightShape::Directional { angle_deg, .. } => (angle_deg * 0.5).to_radians().clamp(0.0, 1.5).tan(),
-        ref shape => shape.radius(),
-    };
-    let nearest = f64::from(nearest(maps));
-    let texels = |view: &LightView| {
-        let per_metre = match &view.paraboloid {
-            // At distance 1, on the rim of the hemisphere; half of that on the axis.
-            Some(paraboloid) => InTexels::of(view.size, paraboloid).per_unit.max_element(),
-            None => {
-                let map_from_world = texels_from_clip(view.size) * view.clip_from_world;
-                map_from_world.row(0).truncate().length().max(map_from_world.row(1).truncate().length())
-            }
-        };
-        // In perspective `near / depth` is the distance, and what is at distance d shows 1 / d as many texels a metre.
-        let depth_per_metre = view.clip_from_world.row(2).truncate().length();
-        per_metre * nearest / if view.is_perspective() { near(view) } else { depth_per_metre }
-    };
-    radius * maps.views.iter().map(texels).fold(0.0, f64::max)
-}
-
-/// The largest depth that a map can hold, from the boxes around the casters.
-fn nearest(maps: &DepthMaps) -> f32 {
-    let deepest = maps.views.iter().map(|view| match view.paraboloid {
-        Some(_) => nearest_around(view, &maps.scene.casters),
-        None => nearest_ahead(view, &maps.scene.casters),
-    });
-    deepest.fold(0.0, f64::max).min(1.0) as f32
-}
-
-/// For depth that goes by the distance.
-fn nearest_around(view: &LightView, casters: &[Bounds]) -> f64 {
-    let frustum = view.frustum();
-    let (axes, near) = (view.clip_from_world, near(view));
-    let [right, up, ahead] = [0, 1, 3].map(|i| axes.row(i));
-    let light = -(right.truncate() * right.w + up.truncate() * up.w + ahead.truncate() * ahead.w);
-    let seen = casters.iter().filter(|b| frustum.may_see(b));
-    seen.map(|b| near / light.distance(light.clamp(b.min, b.max)).max(near)).fold(0.0, f64::max)
-}
-
-/// For depth that goes by a matrix.
-fn nearest_ahead(view: &LightView, casters: &[Bounds]) -> f64 {
-    let mut points = Vec::new();
-    let mut deepest = 0.0_f64;
-    let depth = |p: DVec3| {
-        let clip = view.clip_from_world * p.extend(1.0);
-        if clip.w > clip.z { clip.z / clip.w } else { 1.0 }
-    };
-    let behind = |p: &DVec3| (view.clip_from_world * p.extend(1.0)).w <= 0.0;
-    for bounds in casters {
-        // A box that is partly behind a point light's view: what of it is in front.
-        let corners = bounds.corners();
-        points.clear();
-        match corners.iter().filter(|c| behind(c)).count() {
-            0 => points.extend(corners),
-            8 => {}
-            _ => Frustum::of(&view.clip_from_world).clip_box(bounds, &mut points),
-        }
-        deepest = points.iter().map(|p| depth(*p)).fold(deepest, f64::max);
-    }
-    deepest
 }
 
 /// What a plane's normal has to do with the slope of its stored depth, see `map_point` in `wgsl/map_lookup.wgsl`.
@@ -385,7 +268,7 @@ fn matrix(m: &DMat4) -> [[f32; 4]; 4] {
 }
 
 /// Of a perspective view: the distance of depth 1.
-fn near(view: &LightView) -> f64 {
+pub(super) fn near(view: &LightView) -> f64 {
     view.clip_from_world.row(2).w
 }
 

@@ -57,7 +57,7 @@ struct MapLookup {
     bias: f32,
     // How far casters may be off by rounding, metres.
     caster_rounding: f32,
-    // Depth of the nearest caster there can be.
+    // Depth of the nearest caster there can be; from a point, near / distance.
     nearest: f32,
     // Depth that linear maps store as 0.
     farthest: f32,

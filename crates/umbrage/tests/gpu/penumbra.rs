@@ -258,8 +258,8 @@ fn a_filter_of_constant_width_has_others() {
 fn follows_the_light(cases: &[Case]) {
     let gpu = gpu();
     let mut wrong = Vec::new();
-    // A grid of 5 × 5 taps, which `pcss` looks for blockers with by itself, gets the width of 2 of 102 cases wrong by 0.11 and
-    // 0.13: both lights are tilted and large.
+    // A grid of 5 × 5 taps, which `pcss` looks for blockers with by itself, gets the width of 2 of 102 cases wrong by 0.12 and
+    // 0.13: both lights are large for their distance.
     for (id, set) in [("pcss", "search=7"), ("pcss-jitter", "")] {
         let info = find(id).unwrap();
         let make = || info.make(&gpu, &info.settings(&pairs(set)).unwrap()).unwrap();

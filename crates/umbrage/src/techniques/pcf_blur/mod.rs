@@ -45,7 +45,7 @@ const RADIUS: Param = Param {
     name: "radius",
     help: "Reach of the blur, two standard deviations.",
     unit: "pixels",
-    kind: ParamKind::Float { min: 0.0, max: 64.0, default: 4.0 },
+    kind: ParamKind::Float { min: 0.0, max: 64.0, default: 3.0 },
 };
 
 const DEPTH_AWARE: Param = Param {

@@ -27,7 +27,7 @@ const RADIUS: Param = Param {
     name: "radius",
     help: "Radius of the disc.",
     unit: "texels",
-    kind: ParamKind::Float { min: 0.0, max: 256.0, default: 3.0 },
+    kind: ParamKind::Float { min: 0.0, max: 256.0, default: 2.5 },
 };
 
 /// See the module.
