@@ -87,7 +87,7 @@ impl Lookup {
         self.current = None;
         let Some(textures) = maps.textures.as_ref().filter(|_| !maps.views.is_empty()) else { return };
         self.data = MapLookup::new(view, maps, self.bias);
-        let perspective = maps.from_a_point();
+        let perspective = maps.is_from_a_point();
         let linear = maps.linear && perspective;
         let round = matches!(view.light.shape, LightShape::Sphere { .. } | LightShape::Ellipsoid { .. });
         let has_normals = view.receivers.has_normals;

@@ -269,13 +269,13 @@ impl DepthMaps {
     }
 
     /// True where this frame's views are from a point.
-    pub(crate) fn from_a_point(&self) -> bool {
+    pub(crate) fn is_from_a_point(&self) -> bool {
         self.views.first().is_some_and(LightView::is_perspective)
     }
 
     /// What this frame's views need: all of a light are alike.
     fn kind(&self) -> Kind {
-        let perspective = self.from_a_point();
+        let perspective = self.is_from_a_point();
         let paraboloid = self.layout == Some(Omni::DualParaboloid);
         Kind { perspective, paraboloid, linear: self.linear && perspective }
     }
