@@ -1,7 +1,9 @@
 //! A separable Gaussian over a visibility target, in place.
 
+use super::COLUMNS_SHADER;
+use super::RESULT_SHADER;
+use super::ROWS_SHADER;
 use super::tiles::{Call, TileLists, Tiles};
-use super::{COLUMNS_SHADER, RESULT_SHADER, ROWS_SHADER};
 use crate::fullscreen::{self, FLOATS, Fullscreen, STORAGE, UNIFORM, attachment, bind, layout};
 use crate::shader::shader_struct;
 use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View, visibility::VisibilityTarget};
