@@ -14,8 +14,13 @@ pub const MAP_QUICK: &str = include_str!("wgsl/map_quick.wgsl");
 pub const PACK_NORMAL: &str = include_str!("wgsl/pack_normal.wgsl");
 /// `wgsl/map_storage.wgsl`: what maps hold for a depth; for passes that read or draw maps and don't have [`MAP_LOOKUP`].
 pub const MAP_STORAGE: &str = include_str!("wgsl/map_storage.wgsl");
-/// `wgsl/map_lookup.wgsl`: group 1, where a receiver lies in the maps of a light. With [`MAP_STORAGE`], after [`RECEIVERS`].
-pub const MAP_LOOKUP: &str = concat!(include_str!("wgsl/map_storage.wgsl"), include_str!("wgsl/map_lookup.wgsl"));
+/// `wgsl/map_layers.wgsl` and `wgsl/map_lookup.wgsl`: group 1, where a receiver lies in the maps of a light. With [`MAP_STORAGE`],
+/// after [`RECEIVERS`].
+pub const MAP_LOOKUP: &str = concat!(
+    include_str!("wgsl/map_storage.wgsl"),
+    include_str!("wgsl/map_layers.wgsl"),
+    include_str!("wgsl/map_lookup.wgsl")
+);
 /// `wgsl/light_kernel.wgsl`: the light's surface as a receiver sees it through the map. After [`MAP_LOOKUP`].
 pub const LIGHT_KERNEL: &str = include_str!("wgsl/light_kernel.wgsl");
 /// `wgsl/map_taps.wgsl`: group 2, where filters look. After [`MAP_LOOKUP`].

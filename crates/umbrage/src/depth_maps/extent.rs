@@ -8,7 +8,7 @@ use umbrage_core::light_view::LightView;
 use umbrage_core::{Bounds, LightShape};
 
 shader_struct! {
-    /// The light as a surface, see `wgsl/map_lookup.wgsl`.
+    /// The light as a surface, see `wgsl/map_layers.wgsl`.
     pub(crate) struct LightExtent {
         right: [f32; 3],
         pad: f32,
@@ -133,4 +133,34 @@ fn first_depth(view: &LightView, casters: &[Bounds]) -> f64 {
     let depth = view.clip_from_world.row(2);
     let corners = casters.iter().flat_map(Bounds::corners);
     corners.map(|c: DVec3| depth.dot(c.extend(1.0))).fold(0.0, f64::max).min(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use umbrage_core::Camera;
+    use umbrage_core::light_view::{Fit, FitScene, Focus, Omni, fit};
+
+    #[test]
+    fn a_turned_border_shows_what_is_so_many_degrees_outside() {
+        let floor = Bounds { min: DVec3::new(-9.0, -2.0, -9.0), max: DVec3::new(9.0, -1.0, 9.0) };
+        let scene = FitScene { casters: vec![floor], receivers: vec![floor] };
+        let light = LightShape::Point { position: DVec3::ZERO };
+        for (omni, side) in [(Omni::Cube, 45.0_f64), (Omni::DualParaboloid, 90.0)] {
+            let mut to_fit = Fit { focus: Focus::Light, omni, size: 1000, border_texels: 0.0 };
+            let mut views = Vec::new();
+            let camera = Camera::default().view(4, 3);
+            let mut down = |border_texels| {
+                to_fit.border_texels = border_texels;
+                fit(&light, &camera, &scene, &to_fit, &mut views);
+                views.iter().find(|v| v.frustum().may_see(&Bounds::of([DVec3::NEG_Y]))).cloned().unwrap()
+            };
+            for degrees in [1.0_f64, 8.0, 15.0] {
+                let border = turned_border(&down(0.0), degrees.to_radians());
+                let (sin, cos) = (side + degrees).to_radians().sin_cos();
+                let at = down(border).project(DVec3::new(sin, -cos, 0.0)).unwrap();
+                assert!((at.x.abs().max(at.y.abs()) - 1.0).abs() < 1e-9, "{omni:?} {degrees}: {at}");
+            }
+        }
+    }
 }

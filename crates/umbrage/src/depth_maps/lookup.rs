@@ -176,7 +176,7 @@ impl Lookup {
     }
 }
 
-/// `LAYOUT` in `wgsl/map_lookup.wgsl`.
+/// `LAYOUT` in `wgsl/map_layers.wgsl`.
 fn layout_number(layout: Option<Omni>) -> f64 {
     match layout {
         None => 0.0,

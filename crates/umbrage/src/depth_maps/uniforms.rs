@@ -29,7 +29,7 @@ shader_struct! {
 }
 
 shader_struct! {
-    /// One view of the light, see `wgsl/map_lookup.wgsl`.
+    /// One view of the light, see `wgsl/map_layers.wgsl`.
     pub(crate) struct MapLayer {
         map_from_ndc: [[f32; 4]; 4],
         slope_right: [f32; 3],
@@ -49,7 +49,7 @@ shader_struct! {
 }
 
 shader_struct! {
-    /// See `wgsl/map_lookup.wgsl`.
+    /// See `wgsl/map_layers.wgsl`.
     pub(crate) struct MapLookup {
         eye: Eye,
         layers: [MapLayer; 6],
@@ -231,7 +231,7 @@ fn axis(map_from_world: &DMat4) -> DVec4 {
     straight.extend(per_texel(across, straight.x)).extend(per_texel(down, straight.y))
 }
 
-/// What a plane's normal has to do with the slope of its stored depth, see `map_point` in `wgsl/map_lookup.wgsl`.
+/// What a plane's normal has to do with the slope of its stored depth, see `plane_through` in `wgsl/map_lookup.wgsl`.
 struct Slopes {
     right: DVec3,
     down: DVec3,

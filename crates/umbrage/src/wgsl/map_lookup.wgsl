@@ -1,72 +1,5 @@
 // Where a receiver lies in the maps of a light, and how the depth there slopes: the one place that bias comes from.
 
-// One view of the light.
-struct MapLayer {
-    // Camera's normalised device coordinates to texels and stored depth, homogeneous.
-    map_from_ndc: mat4x4f,
-    // What the normal of a plane has to do with the change of its stored depth per texel to the right and down, and
-    // what that is to be divided by.
-    slope_right: vec3f,
-    pad_a: f32,
-    slope_down: vec3f,
-    pad_b: f32,
-    slope_axis: vec3f,
-    pad_c: f32,
-    // How a small way of the receiver's moves its homogeneous texel. Of a paraboloid, its axes are in `slope_right`, `slope_down` and
-    // `slope_axis`, and this lacks what the change of the distance adds, see `texel_change`.
-    texel_right: vec3f,
-    pad_d: f32,
-    texel_down: vec3f,
-    pad_e: f32,
-    texel_w: vec3f,
-    pad_f: f32,
-    // Perspective: the texel straight ahead, and the tangent that a texel spans, of a paraboloid what it spans of its plane. Parallel: the
-    // metres that it spans.
-    axis: vec4f,
-}
-
-// The light as a surface. A round one is the image of the unit ball under its half axes, a flat one has two.
-struct LightExtent {
-    right: vec3f,
-    pad: f32,
-    up: vec3f,
-    pad_a: f32,
-    ahead: vec3f,
-    pad_b: f32,
-    // Take a direction to where a round light is the unit ball, but for a factor. Of a flat light, the last is its normal.
-    unit_right: vec3f,
-    pad_c: f32,
-    unit_up: vec3f,
-    pad_d: f32,
-    unit_ahead: vec3f,
-    pad_e: f32,
-}
-
-struct MapLookup {
-    eye: Eye,
-    layers: array<MapLayer, 6>,
-    // Camera's normalised device coordinates to the way from a point light, times w. Chooses the layer.
-    from_light: mat4x4f,
-    // Rounding of stored depth: relative, and absolute.
-    rounding: vec2f,
-    // Change of stored depth per metre: times the squared depth, and constant.
-    per_metre: vec2f,
-    // Texels across and down.
-    size: f32,
-    // Multiplies the automatic bias.
-    bias: f32,
-    // How far casters may be off by rounding, metres.
-    caster_rounding: f32,
-    // Depth of the nearest caster there can be; from a point, near / distance.
-    nearest: f32,
-    // Depth that linear maps store as 0.
-    farthest: f32,
-    pad_a: f32,
-    pad_b: f32,
-    pad_c: f32,
-    light: LightExtent,
-}
-
 // What a pixel shows.
 struct Pixel {
     at: vec2f,
@@ -94,76 +27,14 @@ struct MapPoint {
     is_covered: bool,
 }
 
-@group(1) @binding(0) var<uniform> map: MapLookup;
-@group(1) @binding(1) var map_depth: texture_depth_2d_array;
-@group(1) @binding(2) var map_compare: sampler_comparison;
-
-// Views from a point.
-override PERSPECTIVE: bool = false;
-// The light is a ball of some kind, else flat.
-override ROUND: bool = false;
-
-// Which layer a receiver is in.
-override LAYOUT: u32 = 0u;
-const SINGLE: u32 = 0u;
-const CUBE: u32 = 1u;
-const TETRAHEDRON: u32 = 2u;
-const PARABOLOIDS: u32 = 3u;
-
 // Texels that the neighbouring surface at a crease may slope against the receiver's plane.
 const CREASE: f32 = 0.5;
 // How steeply a surface may rise above the receiver's plane within a wide filter: a tangent.
 const BEND: f32 = 0.25;
 
-fn face_of_cube(direction: vec3f) -> u32 {
-    let a = abs(direction);
-    if a.x >= a.y && a.x >= a.z {
-        return select(0u, 1u, direction.x < 0.0);
-    }
-    if a.y >= a.z {
-        return select(2u, 3u, direction.y < 0.0);
-    }
-    return select(4u, 5u, direction.z < 0.0);
-}
-
-// One axis is straight down, three look up a little, the first of these along x.
-fn face_of_tetrahedron(direction: vec3f) -> u32 {
-    let up = direction.y / 3.0;
-    let back = vec2f(-0.47140452, 0.81649658);
-    let along = vec3f(0.94280904 * direction.x, dot(back, direction.xz), dot(back, vec2f(direction.x, -direction.z))) + up;
-    let most = max(along.x, max(along.y, along.z));
-    if -direction.y >= most {
-        return 0u;
-    }
-    return select(select(3u, 2u, along.y == most), 1u, along.x == most);
-}
-
-fn layer_of(direction: vec3f) -> u32 {
-    switch LAYOUT {
-        case CUBE: {
-            return face_of_cube(direction);
-        }
-        case TETRAHEDRON: {
-            return face_of_tetrahedron(direction);
-        }
-        case PARABOLOIDS: {
-            return select(0u, 1u, direction.y > 0.0);
-        }
-        default: {
-            return 0u;
-        }
-    }
-}
-
-// What a map holds, as the depth of a receiver there.
-fn load_depth(texel: vec2i, layer: u32) -> f32 {
-    return depth_of(textureLoad(map_depth, texel, layer, 0), map.farthest);
-}
-
-// What hardware compares with the map.
-fn reference_of(depth: f32) -> f32 {
-    return stored_of(max(depth, 0.0), map.farthest);
-}
+// Away from the axis, depth along it forgives more than depth along the ray: three times as much in the corners of a cube's face.
+// Paraboloids forgive that everywhere.
+const BENT: f32 = 3.0;
 
 // A plane as the map sees it: `along` and `bend` over `across` are the change of its depth around the receiver.
 struct MapPlane {
@@ -229,6 +100,21 @@ fn texel_change(layer: u32, way: vec3f, unit: vec3f) -> vec3f {
     return change;
 }
 
+// The last coordinate of the homogeneous texel of a place that `map_from_ndc` gave.
+fn texel_w(place: vec4f) -> f32 {
+    return place.w + select(0.0, length(place.xyw), LAYOUT == PARABOLOIDS);
+}
+
+// Change of the homogeneous texel along with a change of that place.
+fn texel_step(layer: u32, place: vec4f, change: vec4f) -> vec3f {
+    if LAYOUT == PARABOLOIDS {
+        let axis = map.layers[layer].axis;
+        let w = change.w + dot(normalize(place.xyw), change.xyw);
+        return vec3f(change.xy / axis.zw + axis.xy * w, w);
+    }
+    return change.xyw;
+}
+
 // For the surface that a pixel shows.
 fn map_point(pixel: Pixel) -> MapPoint {
     let surface = pixel.surface;
@@ -241,11 +127,10 @@ fn map_point(pixel: Pixel) -> MapPoint {
     let p = map.layers[point.layer].map_from_ndc * ndc;
     var inverse_w = 1.0 / p.w;
     if LAYOUT == PARABOLOIDS {
-        let distance = length(p.xyw);
         let axis = map.layers[point.layer].axis;
-        inverse_w = 1.0 / (distance + p.w);
+        inverse_w = 1.0 / texel_w(p);
         point.texel = axis.xy + p.xy * inverse_w / axis.zw;
-        point.depth = p.z / distance;
+        point.depth = p.z / length(p.xyw);
     } else {
         point.texel = p.xy * inverse_w;
         point.depth = p.z * inverse_w;
@@ -299,7 +184,7 @@ fn texel_depth(point: MapPoint) -> f32 {
     let wide = max(axis.z, axis.w) * select(map.per_metre.y, point.depth, PERSPECTIVE);
     if LAYOUT == PARABOLOIDS {
         let q = plane_place(point);
-        return 2.0 * wide / (1.0 + dot(q, q));
+        return BENT * 2.0 * wide / (1.0 + dot(q, q));
     }
     return wide;
 }

@@ -12,9 +12,10 @@ struct Bent {
     @location(2) way: vec3f,
 }
 
-// Least cosine between a texel's ray and what the rasteriser took it for. Triangles that reach around to the back of the
-// light turn inside out; what they would smear over the map is left out.
-const LEAST_LIKENESS: f32 = 0.5;
+// How far from a texel's ray may be what the rasteriser found there, in distances. Triangles that reach around to the back of
+// the light turn inside out; what they would smear over the map is left out.
+const LONGEST_LEAP: f32 = 1.0;
+const PLANE_ROUNDING: f32 = 1e-6;
 
 fn bent(way: vec3f, uv: vec2f, material: u32) -> Bent {
     let distance = length(way);
@@ -43,13 +44,19 @@ fn bent_depth(in: Bent) -> f32 {
     let plane = in.position.xy * map_view.plane_from_texel.xy + map_view.plane_from_texel.zw;
     let square = dot(plane, plane);
     let ray = vec3f(2.0 * plane, 1.0 - square) / (1.0 + square);
-    let normal = cross(dpdx(in.way), dpdy(in.way));
+    let across = dpdx(in.way);
+    let down = dpdy(in.way);
+    let normal = cross(across, down);
+    let facing = dot(normal, ray);
+    let share = facing / dot(normal, in.way);
     let distance = length(in.way);
-    let share = dot(normal, ray) / dot(normal, in.way);
-    if !(share > 0.0) || dot(ray, in.way) < LEAST_LIKENESS * distance {
+    let leap = length(ray * distance - in.way);
+    if !(share > 0.0) || leap > LONGEST_LEAP * distance {
         return 0.0;
     }
-    return map_view.near * share;
+    // The plane is known from one pixel to the next; what is rounded there grows with the way to the ray.
+    let rounding = PLANE_ROUNDING * leap * max(length(across), length(down)) / abs(facing);
+    return map_view.near * share * (1.0 - min(rounding, 0.01));
 }
 
 @fragment

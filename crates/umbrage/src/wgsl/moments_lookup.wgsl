@@ -94,11 +94,12 @@ fn texels_of_pixel(point: MapPoint, pixel: Pixel) -> f32 {
     let plane = vec3f(dot(normal, eye[0]), dot(normal, eye[1]), dot(normal, eye[2]));
     let change = -plane.xy / plane.z * map.eye.ndc_from_pixel;
     let to_map = map.layers[point.layer].map_from_ndc;
-    let right = to_map[0] * map.eye.ndc_from_pixel.x + to_map[2] * change.x;
-    let down = to_map[1] * map.eye.ndc_from_pixel.y + to_map[2] * change.y;
-    let w = dot(vec4f(to_map[0].w, to_map[1].w, to_map[2].w, to_map[3].w), ndc);
-    let a = (right.xy - point.texel * right.w) / w;
-    let b = (down.xy - point.texel * down.w) / w;
+    let place = to_map * ndc;
+    let right = texel_step(point.layer, place, to_map[0] * map.eye.ndc_from_pixel.x + to_map[2] * change.x);
+    let down = texel_step(point.layer, place, to_map[1] * map.eye.ndc_from_pixel.y + to_map[2] * change.y);
+    let w = texel_w(place);
+    let a = (right.xy - point.texel * right.z) / w;
+    let b = (down.xy - point.texel * down.z) / w;
     let sum = dot(a, a) + dot(b, b);
     let area = abs(a.x * b.y - a.y * b.x);
     return area / sqrt(0.5 * (sum + sqrt(max(sum * sum - 4.0 * area * area, 0.0))));

@@ -4,6 +4,7 @@ mod common;
 mod filters;
 mod golden;
 mod host;
+mod layouts;
 mod penumbra;
 mod robust;
 mod shared_references;
