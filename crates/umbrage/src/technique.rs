@@ -49,6 +49,12 @@ pub trait Technique: Send {
         &[]
     }
 
+    /// Distances along the camera's view at which one of [`Technique::light_views`] gives way to the next, metres, ascending;
+    /// empty where views are not chosen by that.
+    fn split_distances(&self) -> &[f64] {
+        &[]
+    }
+
     /// What else the last frame came to, by name: casters culled and why, and the like.
     fn counts(&self) -> Vec<(&'static str, u64)> {
         Vec::new()
