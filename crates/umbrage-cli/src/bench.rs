@@ -7,7 +7,7 @@ use crate::{
 use anyhow::Result;
 use clap::Args;
 use std::io::{Write, stdout};
-use umbrage_report::{Bench as Plan, Moving};
+use umbrage_report::{Bench as Plan, CameraPath, Moving};
 
 /// Measures techniques: GPU time of each pass, frame, draws, triangles, memory, against the floor of the same run
 #[derive(Args)]
@@ -17,9 +17,16 @@ Examples:
   umbrage bench city primitives --techniques shadow-map:size=512,pcf --json > bench.json
   umbrage bench bunny.scene.toml --light 0 --csv > bench.csv
   umbrage bench atrium --techniques volume,volume:extrude=cpu --moving lights --lights-together
+  umbrage bench city --light 0 --techniques shadow-map,pcf --path strafe
 
 Techniques take turns frame by frame. `floor` is one full-screen pass that reads depth and writes visibility; \
-`bare-minimum` is a depth-only pass into a map of the same size and a full-screen pass with one look-up.")]
+`bare-minimum` is a depth-only pass into a map of the same size and a full-screen pass with one look-up.
+
+--path moves the camera by about a pixel a frame (walk: forward; strafe: to the right; turn: round; fly: all at once) and measures \
+flicker: the mean absolute change of visibility, 0 to 1, from one frame to the next at points that are fixed in the scene. A point \
+counts where two frames show it within 1/8 pixel of a pixel's centre, so that nothing is interpolated. Since lights and casters stand, \
+the truth does not change; what the ray tracer's visibility changes by at the same pixels of the same frames is what that 1/8 pixel \
+comes to. The ratio of both is 1 where shadows stand still, and grows with edges that crawl, jump or sparkle.")]
 pub struct Bench {
     #[command(flatten)]
     what: args::What,
@@ -29,6 +36,12 @@ pub struct Bench {
     /// What moves a little every frame: none, lights, casters, camera or all
     #[arg(long, value_name = "WHAT", default_value = "none")]
     moving: Moving,
+    /// Measure flicker along a path of the camera: walk, strafe, turn or fly
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["moving", "lights_together"])]
+    path: Option<CameraPath>,
+    /// Rays for each point of the reference that flicker is set against
+    #[arg(long, value_name = "N", default_value_t = 64, requires = "path", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    samples: u32,
     /// All lights in the same frame, each with a technique of its own, instead of one light at a time
     #[arg(long)]
     lights_together: bool,
@@ -60,6 +73,8 @@ impl Bench {
             size: (self.size.width, self.size.height),
             frames: self.frames,
             moving: self.moving,
+            path: self.path,
+            samples: self.samples,
             together: self.lights_together,
             overlay: self.overlay,
             command: args::command_line(),

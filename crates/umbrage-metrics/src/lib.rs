@@ -3,22 +3,28 @@
 //! Pictures of visibility hold the share of a light that each pixel sees, 1 = fully lit. [`score`] compares one with a
 //! reference over the pixels of a mask; [`discontinuities`] finds the pixels that no mask should hold, since a
 //! rasteriser and a ray tracer may see different surfaces there; [`heat`] draws where the errors are.
-//! [`color_scores`] is for finished pictures.
+//! [`Flicker`] tells what changes at fixed points of the scene while the camera moves, [`seam`] how much worse shadows are around
+//! the borders between maps, and [`aliasing`] how large the texels of maps are on the screen. [`color_scores`] is for finished
+//! pictures.
 
 mod color;
 mod discontinuity;
 mod error;
+mod flicker;
 mod flip;
+mod footprint;
 mod heat;
 mod interior;
-mod reach;
 mod score;
+mod seam;
 mod ssim;
 
 pub use color::{ColorScores, color_scores};
 pub use discontinuity::discontinuities;
 pub use error::Error;
+pub use flicker::{FixedPoint, Flicker, Frame, fixed_points};
+pub use footprint::{Aliasing, aliasing, footprint_colors, map_reach, reach_of, texel_footprint};
 pub use heat::heat;
 pub use interior::{REACH_PIXELS, interior};
-pub use reach::map_reach;
 pub use score::{Comparison, Scores, TOLERANCE, score};
+pub use seam::seam;

@@ -80,7 +80,7 @@ pub fn score(comparison: &Comparison<'_>) -> Result<Scores, Error> {
     Ok(Scores {
         mae,
         rmse: mean(&|d| d * d).sqrt(),
-        p99: percentile(errors.iter().map(|d| d.abs()).collect(), 0.99),
+        p99: percentile(&sorted(errors.iter().map(|d| d.abs())), 0.99),
         ssim: ssim::ssim(produced, reference, mask),
         flip: flip::of_visibility(produced, reference, mask),
         correct_pct: correct_pct(&errors).unwrap_or(0.0),
@@ -108,13 +108,18 @@ fn correct_pct(errors: &[f64]) -> Option<f64> {
     (!errors.is_empty()).then(|| 100.0 * correct as f64 / errors.len() as f64)
 }
 
-/// The value at `share` (0…1) of the sorted values, interpolated linearly between its neighbours; 0 of nothing.
-fn percentile(mut values: Vec<f64>, share: f64) -> f64 {
+fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
+    values
+}
+
+/// The value at `share` (0…1) of sorted values, interpolated linearly between its neighbours; 0 of nothing.
+pub(crate) fn percentile(values: &[f64], share: f64) -> f64 {
     let place = values.len().saturating_sub(1) as f64 * share;
     let at = |i: f64| values.get(i as usize).copied().unwrap_or(0.0);
-    let (low, high) = (at(place.floor()), at(place.ceil()));
-    low + (high - low) * place.fract()
+    let (low, high, share) = (at(place.floor()), at(place.ceil()), place.fract());
+    if share > 0.0 { low + (high - low) * share } else { low }
 }
 
 #[cfg(test)]
@@ -222,7 +227,8 @@ mod tests {
 
     #[test]
     fn percentiles_are_interpolated() {
-        assert_eq!(percentile((0..=10).rev().map(f64::from).collect(), 0.25), 2.5);
-        assert_eq!(percentile(vec![7.0], 0.99), 7.0);
+        assert_eq!(percentile(&sorted((0..=10).rev().map(f64::from)), 0.25), 2.5);
+        assert_eq!(percentile(&[7.0], 0.99), 7.0);
+        assert_eq!(percentile(&[1.0, f64::INFINITY], 0.0), 1.0);
     }
 }

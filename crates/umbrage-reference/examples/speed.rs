@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let threads = std::thread::available_parallelism()?.get();
     for gather in [false, true] {
-        let options = Options { samples, gather };
+        let options = Options { samples, gather, ..Options::default() };
         let start = Instant::now();
         let truth = tracer.visibility(&geometry, light, &scene.textures, &options, &|_, _| ());
         let seconds = start.elapsed().as_secs_f64();

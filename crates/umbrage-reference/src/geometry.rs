@@ -49,10 +49,16 @@ impl Geometry {
 impl Tracer {
     /// Looks through the centres of `width` × `height` pixels. Surfaces nearer than the near plane are not seen.
     pub fn geometry(&self, camera: &Camera, width: u32, height: u32) -> Geometry {
+        self.geometry_where(camera, &Image::filled(width, height, true))
+    }
+
+    /// The same, for the pixels of a mask alone; the others show nothing.
+    pub fn geometry_where(&self, camera: &Camera, mask: &Image<bool>) -> Geometry {
+        let (width, height) = mask.size();
         let rows = (0..height).into_par_iter().flat_map_iter(|y| {
             (0..width).map(move |x| {
                 let pixel = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
-                self.look(camera, camera.ray(pixel, width, height))
+                mask[(x, y)].then(|| self.look(camera, camera.ray(pixel, width, height))).flatten()
             })
         });
         let shown: Vec<Option<Shown>> = rows.collect();

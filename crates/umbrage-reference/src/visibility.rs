@@ -16,12 +16,15 @@ pub struct Options {
     /// Gathers the casters that can lie between a pixel and the light once, and tests samples against them alone. The
     /// result is the same to the last bit; without it every sample goes through the whole hierarchy.
     pub gather: bool,
+    /// All pixels use the same points of the light: what differs between two points of a surface is then what is in the way alone.
+    /// Without it noise takes the place of bands.
+    pub same_points: bool,
 }
 
 impl Default for Options {
-    /// 1024 samples, gathered.
+    /// 1024 samples, gathered, other ones for each pixel.
     fn default() -> Self {
-        Self { samples: 1024, gather: true }
+        Self { samples: 1024, gather: true, same_points: false }
     }
 }
 
@@ -56,7 +59,8 @@ impl Tracer {
             let mut row = Vec::with_capacity(width as usize);
             for x in 0..width {
                 let surface = geometry.surface(x, y).filter(|s| geometry.receives[(x, y)] && view.is_faced_by(s));
-                row.push(surface.map(|s| view.visibility(self, s, y.wrapping_mul(width).wrapping_add(x), &mut tally)));
+                let seed = if options.same_points { 0 } else { y.wrapping_mul(width).wrapping_add(x) };
+                row.push(surface.map(|s| view.visibility(self, s, seed, &mut tally)));
             }
             rays.fetch_add(tally.rays, Ordering::Relaxed);
             progress(done.fetch_add(width.into(), Ordering::Relaxed) + u64::from(width), total);

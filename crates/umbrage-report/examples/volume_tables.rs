@@ -202,6 +202,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             size: SIZE,
             frames,
             moving: Moving::Lights,
+            path: None,
+            samples: 1,
             together: lights == Lights::Four,
             overlay: lights == Lights::Four,
             command: command.clone(),

@@ -4,9 +4,11 @@ use crate::{
     choice::Choice,
     compare::check_choices,
     error::Error,
+    flicker::{Follower, Found},
     made::Made,
     measure::Frames,
     motion::{Motion, Moving},
+    path::CameraPath,
     progress::Progress,
     record::{SCHEMA, Status, in_order},
     round::maybe_six,
@@ -17,6 +19,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use umbrage::{Gpu, LightPass, Renderer, Technique, baseline};
 use umbrage_core::{Camera, LightKind};
+use umbrage_reference::Tracer;
 
 /// What to measure, and how.
 #[derive(Clone, Debug)]
@@ -31,6 +34,10 @@ pub struct Bench {
     pub frames: u32,
     /// What moves from frame to frame.
     pub moving: Moving,
+    /// Where the camera goes; what flickers on the way is measured then, too. Lights and casters stand still.
+    pub path: Option<CameraPath>,
+    /// Rays for each point of a soft light's reference that flicker is set against.
+    pub samples: u32,
     /// All lights of a scene in the same frame, each with a technique of its own, where it is otherwise one light at a time.
     pub together: bool,
     /// Measures techniques that know it by the single-pass algorithm for all lights at once, too.
@@ -54,6 +61,8 @@ pub struct BenchReport {
     pub frames: u32,
     /// What moved from frame to frame.
     pub moving: Moving,
+    /// Where the camera went; null where it was not on one of the paths.
+    pub path: Option<CameraPath>,
     /// One for each scene, as given.
     pub scenes: Vec<BenchScene>,
 }
@@ -82,6 +91,11 @@ pub struct BenchLight {
     pub kind: &'static str,
     /// The numbers of the lights that were measured together; null for one alone.
     pub together: Option<Vec<usize>>,
+    /// Flicker of the truth, see [`BenchResult::flicker`]: what the picture's own grid adds. Null where the camera was on no path.
+    #[serde(serialize_with = "maybe_six")]
+    pub flicker_reference: Option<f64>,
+    /// How many changes it is the mean of; null where the camera was on no path.
+    pub flicker_points: Option<usize>,
     /// Baselines first, then the techniques asked for.
     pub results: Vec<BenchResult>,
 }
@@ -107,6 +121,13 @@ pub struct BenchResult {
     /// The same over the bare minimum with a map of the same size.
     #[serde(serialize_with = "maybe_six")]
     pub vs_bare_minimum: Option<f64>,
+    /// Mean absolute change of visibility from frame to frame at fixed points of the scene, 0 to 1, see [`umbrage_metrics::Flicker`].
+    /// Null where the camera was on no path.
+    #[serde(serialize_with = "maybe_six")]
+    pub flicker: Option<f64>,
+    /// The same over that of the truth, at the same points: 1 is steady. Null where that is 0, too.
+    #[serde(serialize_with = "maybe_six")]
+    pub flicker_ratio: Option<f64>,
 }
 
 /// Times, milliseconds, and what was drawn.
@@ -156,6 +177,7 @@ impl Bench {
     pub fn run(&self, gpu: &Gpu, progress: &dyn Progress) -> Result<BenchReport, Error> {
         gpu.check_size("a picture", self.size.0, self.size.1)?;
         check_choices(&self.choices, gpu)?;
+        self.check_path()?;
         for (source, lights) in &self.scenes {
             lights.iter().try_for_each(|&light| source.light(light).map(|_| ()))?;
         }
@@ -163,8 +185,10 @@ impl Bench {
         for (source, lights) in &self.scenes {
             let scene = &source.scene;
             let motion = Motion::new(self.moving, scene);
+            let tracer = self.path.map(|_| Tracer::new(scene));
             let groups: Vec<&[usize]> = if self.together { vec![lights] } else { lights.chunks(1).collect() };
-            let lights = groups.into_iter().map(|lights| self.lights(gpu, source, &motion, lights, progress)).collect();
+            let measure = |lights| self.lights(gpu, source, &motion, tracer.as_ref(), lights, progress);
+            let lights = groups.into_iter().map(measure).collect::<Result<_, _>>()?;
             scenes.push(BenchScene {
                 name: scene.name.clone(),
                 source: source.asked.clone(),
@@ -175,7 +199,22 @@ impl Bench {
         }
         let made = Made::now(self.command.clone(), gpu.adapter());
         let (width, height) = self.size;
-        Ok(BenchReport { schema: SCHEMA, made, width, height, frames: self.frames, moving: self.moving, scenes })
+        let (frames, moving, path) = (self.frames, self.moving, self.path);
+        Ok(BenchReport { schema: SCHEMA, made, width, height, frames, moving, path, scenes })
+    }
+
+    /// On a path what is fixed in the scene has to stand still, and one technique alone makes the picture.
+    fn check_path(&self) -> Result<(), Error> {
+        let wrong = match (self.path, self.frames) {
+            (None, _) => return Ok(()),
+            _ if self.moving != Moving::None => {
+                "no light, caster or other camera moves along a path; leave --moving out"
+            }
+            _ if self.together => "flicker is that of one light at a time; leave --lights-together out",
+            (_, 0 | 1) => "flicker is a change between frames; write --frames 2 or more",
+            _ => return Ok(()),
+        };
+        Err(Error::Name(format!("--path: {wrong}")))
     }
 
     /// Measures `lights` in the same frame.
@@ -184,30 +223,44 @@ impl Bench {
         gpu: &Gpu,
         source: &Source,
         motion: &Motion<'_>,
+        tracer: Option<&Tracer>,
         lights: &[usize],
         progress: &dyn Progress,
-    ) -> BenchLight {
+    ) -> Result<BenchLight, Error> {
         let (light, kind, together) = match lights {
             [light] if !self.together => (Some(*light), source.scene.lights[*light].shape.kind().name(), None),
             _ => (None, "all", Some(lights.to_vec())),
         };
-        let mut record = BenchLight { light, kind, together, results: Vec::new() };
+        let mut record =
+            BenchLight { light, kind, together, flicker_reference: None, flicker_points: None, results: Vec::new() };
         progress.begin(&format!("{}, {}", source.scene.name, record.title()), self.frames.into());
         let mut runners = self.runners(gpu, source, lights);
+        let followed = tracer.zip(lights.first().map(|&light| &source.scene.lights[light]));
+        let mut follower =
+            followed.map(|(tracer, light)| Follower::new(source, light, tracer, self.samples, self.choices.len()));
         for round in 0..WARM_UP + self.frames {
-            let camera = motion.camera(round);
+            let counted = round.saturating_sub(WARM_UP);
+            let on_path = self.path.map(|path| path.camera(&source.scene.camera, counted, self.size.1));
+            let camera = on_path.unwrap_or_else(|| motion.camera(round));
             for runner in &mut runners {
                 if let Ok(renderer) = &mut runner.renderer {
                     motion.apply(gpu, renderer, lights, round);
                 }
                 runner.frame(&camera, round >= WARM_UP);
             }
-            progress.at(round.saturating_sub(WARM_UP).into());
+            if let Some(follower) = follower.as_mut().filter(|_| round >= WARM_UP) {
+                let techniques = runners.iter().filter(|runner| runner.choice.is_some());
+                follower.frame(&camera, &techniques.map(|r| r.renderer.as_ref().ok()).collect::<Vec<_>>())?;
+            }
+            progress.at(counted.into());
         }
         progress.end();
         let costs: Vec<_> = runners.iter().map(|r| (r.baseline, r.cost())).collect();
         record.results = runners.iter().zip(&costs).map(|(r, (_, cost))| r.result(cost.clone(), &costs)).collect();
-        record
+        if let Some(follower) = &follower {
+            record.set_flicker(&follower.found());
+        }
+        Ok(record)
     }
 
     /// The baselines and all techniques, each with a renderer of its own.
@@ -323,6 +376,8 @@ impl Runner<'_> {
             vs_floor: over(Baseline::Floor),
             vs_bare_minimum: over(Baseline::BareMinimum(own_size)),
             cost,
+            flicker: None,
+            flicker_ratio: None,
         }
     }
 }
@@ -332,6 +387,17 @@ impl BenchLight {
     pub(crate) fn title(&self) -> String {
         let numbers = self.together.iter().flatten().map(usize::to_string).collect::<Vec<_>>().join(", ");
         self.light.map_or(format!("lights {numbers} together"), |light| format!("light {light} ({})", self.kind))
+    }
+
+    /// The last results are those of the techniques; one that failed has none.
+    fn set_flicker(&mut self, found: &Found) {
+        (self.flicker_reference, self.flicker_points) = (found.reference, Some(found.points));
+        let baselines = self.results.len().saturating_sub(found.techniques.len());
+        for (result, flicker) in self.results[baselines..].iter_mut().zip(&found.techniques) {
+            result.flicker = flicker.filter(|_| result.status == Status::Ok);
+            let reference = found.reference.filter(|reference| *reference > 0.0);
+            result.flicker_ratio = result.flicker.zip(reference).map(|(flicker, reference)| flicker / reference);
+        }
     }
 }
 

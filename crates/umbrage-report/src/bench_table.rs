@@ -13,7 +13,7 @@ use comfy_table::{Cell, Table};
 
 const CSV_HEAD: &str = "scene,light,kind,technique,settings,status,reason,frame_ms,frame_ms_min,frame_ms_max,prepare_ms,\
      prepare_ms_min,prepare_ms_max,gpu_ms,gpu_ms_min,gpu_ms_max,passes,draws,triangles,bytes,vs_floor,vs_bare_minimum,\
-     counts";
+     flicker,flicker_ratio,counts";
 
 impl BenchReport {
     /// Indented JSON.
@@ -41,7 +41,11 @@ impl BenchReport {
     /// A table for each light of each scene.
     pub fn tables(&self) -> String {
         let mut text = String::new();
-        let moving = if self.moving == Moving::None { "nothing" } else { self.moving.name() };
+        let moving = match (self.path, self.moving) {
+            (Some(path), _) => format!("the camera, path {}", path.name()),
+            (None, Moving::None) => "nothing".into(),
+            (None, moving) => moving.name().into(),
+        };
         for scene in &self.scenes {
             for light in &scene.lights {
                 let (title, size) = (light.title(), format!("{}×{}", self.width, self.height));
@@ -49,12 +53,21 @@ impl BenchReport {
                     "\n{}, {title}, {size}, {} triangles; medians of {} frames; moving: {moving}\n",
                     scene.name, scene.triangles, self.frames
                 );
-                text += &table(&light.results).to_string();
+                text += &table(&light.results, self.path.is_some()).to_string();
                 text += "\n";
+                text += &light.flicker_reference.map_or(String::new(), |flicker| {
+                    let points = light.flicker_points.unwrap_or_default();
+                    format!("flicker of the ray-traced reference: {flicker:.5}, mean of {points} changes\n")
+                });
             }
         }
-        text + "\n× floor, × bare: GPU and preparation time over that of one full-screen pass, and over that of a plain map \
-                with a one-tap look-up.\n"
+        text += "\n× floor, × bare: GPU and preparation time over that of one full-screen pass, and over that of a plain map \
+                 with a one-tap look-up.\n";
+        if self.path.is_some() {
+            text += "flicker: mean change of visibility from frame to frame at fixed points of the scene; × truth: over that of \
+                     the reference.\n";
+        }
+        text
     }
 }
 
@@ -84,7 +97,8 @@ fn csv_fields(result: &BenchResult) -> Vec<String> {
             [c.draws.to_string(), c.triangles.to_string(), c.bytes.to_string()]
         }),
     );
-    fields.extend([result.vs_floor, result.vs_bare_minimum].map(|v| v.map(number).unwrap_or_default()));
+    let ratios = [result.vs_floor, result.vs_bare_minimum, result.flicker, result.flicker_ratio];
+    fields.extend(ratios.map(|v| v.map(number).unwrap_or_default()));
     let counts = cost.iter().flat_map(|c| &c.counts).map(|(name, count)| format!("{name}={count}"));
     fields.push(counts.collect::<Vec<_>>().join(";"));
     fields
@@ -98,7 +112,8 @@ fn quoted(field: &str) -> String {
     if field.contains([',', '"', '\n', '\r']) { format!("\"{}\"", field.replace('"', "\"\"")) } else { field.into() }
 }
 
-fn table(results: &[BenchResult]) -> Table {
+fn table(results: &[BenchResult], on_path: bool) -> Table {
+    let flicker: &[&str] = if on_path { &["flicker", "× truth"] } else { &[] };
     let heading = [
         "technique",
         "frame ms",
@@ -111,7 +126,7 @@ fn table(results: &[BenchResult]) -> Table {
         "triangles",
         "MiB",
     ];
-    let mut table = plain(heading.into_iter());
+    let mut table = plain(heading.into_iter().chain(flicker.iter().copied()));
     for result in results {
         let mut row = vec![Cell::new(label(result))];
         match &result.cost {
@@ -133,6 +148,10 @@ fn table(results: &[BenchResult]) -> Table {
                     ms(cost.bytes as f64 / 1_048_576.0),
                 ];
                 row.extend(cells.map(Cell::new));
+                if on_path {
+                    let flicker = result.flicker.map_or("–".into(), |v| format!("{v:.5}"));
+                    row.extend([flicker, maybe(result.flicker_ratio)].map(Cell::new));
+                }
             }
             None => row.push(Cell::new(result.reason.as_deref().unwrap_or_default())),
         }
@@ -147,6 +166,7 @@ mod tests {
     use crate::{
         bench::{BenchCost, BenchLight, BenchScene},
         made::Made,
+        path::CameraPath,
         record::{SCHEMA, fixture},
     };
     use std::collections::BTreeMap;
@@ -172,13 +192,18 @@ mod tests {
             cost,
             vs_floor: None,
             vs_bare_minimum: Some(1.25),
+            flicker: Some(0.0021),
+            flicker_ratio: Some(3.5),
         };
         let made: Made = fixture().made;
         let results = vec![result("shadow-map", Some(cost), None), result("pcf", None, Some("lost, \"gone\""))];
-        let light = BenchLight { light: Some(0), kind: "point", together: None, results };
+        let (flicker_reference, flicker_points) = (Some(0.0006), Some(1234));
+        let light =
+            BenchLight { light: Some(0), kind: "point", together: None, flicker_reference, flicker_points, results };
         let scene =
             BenchScene { name: "a".into(), source: "a,b.obj".into(), triangles: 9, instances: 1, lights: vec![light] };
-        BenchReport { schema: SCHEMA, made, width: 8, height: 6, frames: 5, moving: Moving::All, scenes: vec![scene] }
+        let (moving, path) = (Moving::All, None);
+        BenchReport { schema: SCHEMA, made, width: 8, height: 6, frames: 5, moving, path, scenes: vec![scene] }
     }
 
     #[test]
@@ -189,7 +214,7 @@ mod tests {
         // The first field has a comma of its own.
         assert_eq!(lines[1].split(',').count(), lines[0].split(',').count() + 1, "{csv}");
         assert!(lines[1].starts_with("\"a,b.obj\",0,point,shadow-map,size=512,ok,,2,1,0.333333,"), "{csv}");
-        assert!(lines[1].ends_with(",1.25,edges=7;caps=2"), "{csv}");
+        assert!(lines[1].ends_with(",1.25,0.0021,3.5,edges=7;caps=2"), "{csv}");
         assert!(lines[2].contains("\"lost, \"\"gone\"\"\""), "{csv}");
     }
 
@@ -197,6 +222,16 @@ mod tests {
     fn the_table_names_passes_and_failures() {
         let text = report().tables();
         for part in ["light 0 (point)", "moving: all", "shadow-map size=512", "map 2.00", "1.25", "lost, \"gone\""] {
+            assert!(text.contains(part), "{part} is missing in\n{text}");
+        }
+    }
+
+    #[test]
+    fn flicker_has_columns_where_the_camera_was_on_a_path() {
+        assert!(!report().tables().contains("flicker ") && !report().tables().contains("× truth"));
+        let text = BenchReport { moving: Moving::None, path: Some(CameraPath::Strafe), ..report() }.tables();
+        for part in ["moving: the camera, path strafe", "× truth", "0.00210", "3.50", "0.00060, mean of 1234 changes"]
+        {
             assert!(text.contains(part), "{part} is missing in\n{text}");
         }
     }

@@ -6,14 +6,14 @@ use crate::{
     given::Given,
     measure::{Frames, is_of_technique},
     pictures::{Pictures, grey, opaque},
-    record::{CostRecord, PassRecord, ReferenceRecord, ResultRecord, Status},
+    record::{CostRecord, PassRecord, ReferenceRecord, ResultRecord, ScoresRecord, Status},
     source::Source,
     truth::{Tracing, Truth},
 };
 use std::{collections::BTreeMap, time::Duration};
 use umbrage::{Gpu, LightPass, Renderer, Technique};
 use umbrage_core::Image;
-use umbrage_metrics::{Comparison, Scores, heat, map_reach, score};
+use umbrage_metrics::{Comparison, Scores, aliasing, footprint_colors, heat, reach_of, score, seam, texel_footprint};
 use umbrage_reference::Geometry;
 
 /// What all techniques on one light share.
@@ -41,6 +41,7 @@ impl Cell<'_> {
             reason: None,
             scores: None,
             cost: None,
+            aliasing: None,
             pictures: BTreeMap::new(),
         };
         if let Err(error) = self.fill(&mut record, choice, place, pictures) {
@@ -52,6 +53,7 @@ impl Cell<'_> {
             };
             record.scores = None;
             record.cost = None;
+            record.aliasing = None;
             record.pictures.clear();
             (record.status, record.reason) = (status, Some(reason));
         }
@@ -69,8 +71,9 @@ impl Cell<'_> {
         let mut renderer = self.renderer(choice.make(self.gpu)?)?;
         let frames = Frames::measure(&mut renderer, &self.source.scene.camera, self.frames, TIME_LIMIT)?;
         let visibility = renderer.visibility(0)?;
-        let scores = self.score(&visibility, self.reach(&renderer).as_ref())?;
-        record.scores = Some(scores.into());
+        let footprint = self.footprint(&renderer);
+        let scores = self.score(&visibility, footprint.as_ref().map(reach_of).as_ref())?;
+        record.scores = Some(ScoresRecord { seam: self.seam(&visibility, &renderer)?, ..scores.into() });
         record.cost = Some(cost(&frames, &renderer));
         let error = heat(&visibility, &self.truth.visibility, &self.truth.mask);
         let name = format!("{place}-{}", choice.label());
@@ -79,6 +82,11 @@ impl Cell<'_> {
             ("visibility", pictures.add(&format!("{name}-visibility"), &grey(&visibility))?),
             ("error", pictures.add(&format!("{name}-error"), &error)?),
         ]);
+        if let Some(footprint) = footprint {
+            record.aliasing = aliasing(&footprint, &self.truth.mask).map(Into::into);
+            let picture = pictures.add(&format!("{name}-aliasing"), &footprint_colors(&footprint))?;
+            record.pictures.insert("aliasing", picture);
+        }
         Ok(())
     }
 
@@ -117,11 +125,19 @@ impl Cell<'_> {
         Ok(score(&Comparison { produced, reference: visibility, mask, hard: hard.as_ref(), reach })?)
     }
 
-    /// For techniques with maps: how far from a shadow edge the resolution of the maps is to blame.
-    fn reach(&self, renderer: &Renderer) -> Option<Image<f32>> {
-        let views = renderer.technique(0)?.light_views();
+    /// For techniques with maps: how large their texels are on the screen.
+    fn footprint(&self, renderer: &Renderer) -> Option<Image<f32>> {
+        let technique = renderer.technique(0)?;
+        let (views, splits) = (technique.light_views(), technique.split_distances());
         let Geometry { depth, normal, .. } = &self.tracing.geometry;
-        (!views.is_empty()).then(|| map_reach(views, &self.source.scene.camera, depth, normal))
+        (!views.is_empty()).then(|| texel_footprint(views, splits, &self.source.scene.camera, depth, normal))
+    }
+
+    /// For techniques with splits: how much worse shadows are around their borders.
+    fn seam(&self, produced: &Image<f32>, renderer: &Renderer) -> Result<Option<f64>, Error> {
+        let splits = renderer.technique(0).map_or(&[][..], |technique| technique.split_distances());
+        let Truth { visibility, mask, .. } = self.truth;
+        Ok(seam(produced, visibility, mask, &self.tracing.geometry.depth, splits)?)
     }
 
     fn renderer(&self, technique: Box<dyn Technique>) -> Result<Renderer, Error> {

@@ -33,6 +33,10 @@ const fn score(
     Column { name, help, path: ["scores", name], better, scale: 1.0, digits, brief }
 }
 
+const fn texels(name: &'static str, field: &'static str, help: &'static str) -> Column {
+    Column { name, help, path: ["aliasing", field], better: Some("less"), scale: 1.0, digits: 2, brief: false }
+}
+
 const fn cost(
     name: &'static str,
     field: &'static str,
@@ -45,7 +49,7 @@ const fn cost(
 }
 
 /// All of them, errors first.
-pub const COLUMNS: [Column; 16] = [
+pub const COLUMNS: [Column; 20] = [
     score("mae", Some("less"), 4, true, "Mean absolute error of visibility over the scored pixels, 0 to 1."),
     score("rmse", Some("less"), 4, false, "Root of the mean squared error: large errors weigh more."),
     score("p99", Some("less"), 3, false, "99 of 100 scored pixels are off by no more than this."),
@@ -74,6 +78,20 @@ pub const COLUMNS: [Column; 16] = [
         true,
         "Error as a share of that of a perfect hard shadow: 1 is no better than hard, 0 is the truth. Soft lights only.",
     ),
+    score(
+        "seam",
+        Some("less"),
+        2,
+        true,
+        "How many times as far off shadow edges are around the borders between maps (within 5 % of their distance) as elsewhere.",
+    ),
+    texels(
+        "texel px",
+        "median",
+        "Size of the map's texels as seen on the screen, pixels, median of the scored pixels.",
+    ),
+    texels("texel 95 %", "p95", "95 of 100 scored pixels have no larger texel, pixels."),
+    texels("texel 99 %", "p99", "99 of 100 scored pixels have no larger texel, pixels."),
     cost("gpu ms", "gpu_ms", 1.0, 2, true, "GPU time of all passes of the technique, median."),
     cost("prepare ms", "prepare_ms", 1.0, 2, false, "CPU time to prepare and record the frame, median."),
     cost(

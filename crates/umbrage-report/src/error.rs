@@ -41,6 +41,13 @@ impl Error {
         Self::Output { path: path.to_path_buf(), reason: reason.to_string() }
     }
 
+    /// An [`Error::Name`] for a word that is none of `names`.
+    pub(crate) fn one_of(word: &str, names: &[&str]) -> Self {
+        let guess = umbrage::nearest(word, names.iter().copied());
+        let guess = guess.map_or(String::new(), |name| format!("; did you mean `{name}`?"));
+        Self::Name(format!("write one of {}{guess}", names.join(", ")))
+    }
+
     /// An [`Error::Scene`].
     pub fn scene(scene: &str, reason: impl ToString) -> Self {
         Self::Scene { scene: scene.into(), reason: reason.to_string() }

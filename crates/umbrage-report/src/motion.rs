@@ -56,11 +56,8 @@ impl FromStr for Moving {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self, Error> {
-        Self::ALL.into_iter().find(|m| m.name() == text).ok_or_else(|| {
-            let guess = umbrage::nearest(text, Self::ALL.into_iter().map(Self::name));
-            let guess = guess.map_or(String::new(), |name| format!("; did you mean `{name}`?"));
-            Error::Name(format!("write one of {}{guess}", Self::ALL.map(Self::name).join(", ")))
-        })
+        let found = Self::ALL.into_iter().find(|m| m.name() == text);
+        found.ok_or_else(|| Error::one_of(text, &Self::ALL.map(Self::name)))
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::{made::Made, round::maybe_six, round::six};
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
-use umbrage_metrics::Scores;
+use umbrage_metrics::{Aliasing, Scores};
 
 /// Version of the data in `report.json` and of what `bench` prints.
 pub const SCHEMA: u32 = 1;
@@ -105,7 +105,9 @@ pub struct ResultRecord {
     pub scores: Option<ScoresRecord>,
     /// Costs; null unless `ok`.
     pub cost: Option<CostRecord>,
-    /// Pictures by kind, relative to the report: `color`, `visibility`, `error`.
+    /// Size of the maps' texels on the screen over the scored pixels; null without maps, and unless `ok`.
+    pub aliasing: Option<AliasingRecord>,
+    /// Pictures by kind, relative to the report: `color`, `visibility`, `error`, and `aliasing` for techniques with maps.
     pub pictures: BTreeMap<&'static str, String>,
 }
 
@@ -142,6 +144,9 @@ pub struct ScoresRecord {
     /// Share of the error of a perfect hard shadow; null for hard lights.
     #[serde(serialize_with = "maybe_six")]
     pub vs_hard: Option<f64>,
+    /// How many times as far off edges are around borders between maps, see [`umbrage_metrics::seam`]; null without borders.
+    #[serde(serialize_with = "maybe_six")]
+    pub seam: Option<f64>,
     /// Pixels compared.
     pub scored_pixels: usize,
     /// How many of them were NaN or infinite.
@@ -161,9 +166,30 @@ impl From<Scores> for ScoresRecord {
             leak: s.leak,
             false_shadow: s.false_shadow,
             vs_hard: s.vs_hard,
+            seam: None,
             scored_pixels: s.scored_pixels,
             not_finite: s.not_finite,
         }
+    }
+}
+
+/// How many pixels a texel reaches on the screen, see [`Aliasing`].
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct AliasingRecord {
+    /// Half of the pixels have no larger one.
+    #[serde(serialize_with = "six")]
+    pub median: f64,
+    /// 95 of 100 pixels have no larger one.
+    #[serde(serialize_with = "six")]
+    pub p95: f64,
+    /// 99 of 100 pixels have no larger one.
+    #[serde(serialize_with = "six")]
+    pub p99: f64,
+}
+
+impl From<Aliasing> for AliasingRecord {
+    fn from(Aliasing { median, p95, p99 }: Aliasing) -> Self {
+        Self { median, p95, p99 }
     }
 }
 
@@ -227,6 +253,7 @@ pub(crate) fn fixture() -> Report {
         reason: reason.map(String::from),
         scores: None,
         cost: None,
+        aliasing: None,
         pictures: BTreeMap::new(),
     };
     let mut good = result("shadow-map", Status::Ok, None);
@@ -241,6 +268,7 @@ pub(crate) fn fixture() -> Report {
         leak: 0.01,
         false_shadow: 0.0023456,
         vs_hard: Some(1.5),
+        seam: Some(1.125),
         scored_pixels: 1000,
         not_finite: 0,
     });
@@ -255,6 +283,7 @@ pub(crate) fn fixture() -> Report {
         bytes: 4 << 20,
         counts: vec![("edges", 40), ("caps", 2)],
     });
+    good.aliasing = Some(AliasingRecord { median: 1.5, p95: 3.0, p99: f64::INFINITY });
     let light = LightRecord {
         light: 0,
         kind: "line",
@@ -301,6 +330,7 @@ mod tests {
         assert_eq!(results[0]["scores"]["mae"], 0.0123457);
         assert_eq!(results[0]["scores"]["interior_pct"], serde_json::Value::Null);
         assert_eq!(results[0]["cost"]["bytes"], 4 << 20);
+        assert_eq!(results[0]["aliasing"], serde_json::json!({"median": 1.5, "p95": 3.0, "p99": null}));
         assert_eq!(
             (&results[1]["status"], &results[1]["reason"]),
             (&"unsupported".into(), &"not for line lights".into())

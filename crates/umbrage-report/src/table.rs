@@ -35,8 +35,9 @@ pub(crate) fn title(result: &ResultRecord) -> String {
 }
 
 fn light_table(light: &LightRecord) -> Table {
-    let columns: Vec<Column> = COLUMNS.into_iter().filter(|c| c.brief).collect();
     let values: Vec<Value> = light.results.iter().map(|r| serde_json::to_value(r).unwrap_or_default()).collect();
+    let says_something = |column: &Column| values.iter().any(|v| column.value(v).is_some());
+    let columns: Vec<Column> = COLUMNS.into_iter().filter(|c| c.brief && says_something(c)).collect();
     let best: Vec<Option<f64>> = columns.iter().map(|c| best(c, &values)).collect();
     let mut table = plain(std::iter::once("technique").chain(columns.iter().map(|c| c.name)));
     for (result, value) in light.results.iter().zip(&values) {

@@ -50,7 +50,7 @@ pub trait Technique: Send {
     }
 
     /// Distances along the camera's view at which one of [`Technique::light_views`] gives way to the next, metres, ascending;
-    /// empty where views are not chosen by that.
+    /// empty where views are not chosen by that. Between distances number i − 1 and i the view of layer i counts.
     fn split_distances(&self) -> &[f64] {
         &[]
     }

@@ -57,10 +57,15 @@ fn compare_writes_report_page_and_pictures() {
                 continue;
             }
             assert!(result["scores"]["mae"].is_number() && result["cost"]["frame_ms"].is_number(), "{result}");
-            for kind in ["color", "visibility", "error"] {
+            let texels = if result["aliasing"].is_null() { &[][..] } else { &["aliasing"] };
+            if result["technique"] == "shadow-map" {
+                assert!(result["aliasing"]["median"].as_f64().is_some_and(|texel| texel > 0.0), "{result}");
+            }
+            for kind in ["color", "visibility", "error"].iter().chain(texels) {
                 let name = result["pictures"][kind].as_str().expect("a picture");
                 assert!(folder.path().join("out").join(name).is_file(), "{name} was not written");
             }
+            assert_eq!(result["pictures"]["aliasing"].is_null(), result["aliasing"].is_null(), "{result}");
         }
     }
     let page = fs::read_to_string(folder.path().join("out/index.html")).expect("index.html");
@@ -107,6 +112,59 @@ fn bench_moves_lights_and_casters_and_puts_lights_together() {
         volume.and_then(|v| v["cost"]["counts"]["casters"].as_u64()).expect("a count of casters")
     };
     assert_eq!(casters(&together[0]), lights.iter().map(casters).sum::<u64>());
+}
+
+#[test]
+fn flicker_is_measured_along_a_path() {
+    let arguments = "bench contact --techniques none,volume,shadow-map:size=64 --path strafe --frames 4 --size 192x144";
+    let arguments: Vec<&str> = arguments.split(' ').collect();
+    let report: Value =
+        serde_json::from_str(&output(Path::new("."), &[&arguments[..], &["--json"]].concat())).expect("JSON");
+    assert_eq!((&report["path"], &report["moving"]), (&"strafe".into(), &"none".into()));
+    let lights = report["scenes"][0]["lights"].as_array().expect("lights");
+    for light in lights {
+        assert!(light["flicker_points"].as_u64().is_some_and(|points| points > 5000), "{light}");
+        assert!(light["flicker_reference"].as_f64().is_some_and(|flicker| flicker < 0.003), "{light}");
+        assert!(light["results"][0]["flicker"].is_null(), "the floor has no shadow to flicker: {light}");
+    }
+    let of = |technique: &str, name: &str| {
+        let results = lights[0]["results"].as_array().expect("results");
+        let result = results.iter().find(|r| r["technique"] == technique).expect("a result");
+        result[name].as_f64().expect("a number")
+    };
+    assert_eq!((of("none", "flicker"), of("none", "flicker_ratio")), (0.0, 0.0));
+    let (exact, coarse) = (of("volume", "flicker_ratio"), of("shadow-map", "flicker_ratio"));
+    assert!((0.8..1.25).contains(&exact), "hard shadows exact to the pixel flicker {exact} times as much as the truth");
+    assert!(coarse > 2.0 * exact, "a coarse map that follows the camera flickers {coarse} times as much only");
+    let text = output(Path::new("."), &arguments);
+    for part in ["path strafe", "× truth", "flicker of the ray-traced reference"] {
+        assert!(text.contains(part), "{part} is missing in\n{text}");
+    }
+    let still: Value = serde_json::from_str(&output(
+        Path::new("."),
+        &["bench", "contact", "--techniques", "none", "--light", "0", "--frames", "1", "--size", "32x24", "--json"],
+    ))
+    .expect("JSON");
+    let light = &still["scenes"][0]["lights"][0];
+    let nulls =
+        [&still["path"], &light["flicker_reference"], &light["flicker_points"], &light["results"][2]["flicker"]];
+    assert_eq!(nulls, [&Value::Null; 4]);
+}
+
+#[test]
+fn paths_that_can_not_be_are_refused() {
+    let refused = |more: &str, parts: &[&str]| {
+        let arguments = format!("bench contact --techniques none --size 32x24 {more}");
+        let output = umbrage(Path::new("."), &arguments.split_whitespace().collect::<Vec<_>>());
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!((output.status.code(), output.stdout.is_empty()), (Some(2), true), "{text}");
+        parts.iter().for_each(|part| assert!(text.contains(part), "`{part}` is missing in\n{text}"));
+    };
+    refused("--path stafe", &["walk, strafe, turn, fly", "did you mean `strafe`"]);
+    refused("--path walk --frames 1", &["--frames 2"]);
+    refused("--path walk --moving lights", &["--moving"]);
+    refused("--path walk --lights-together", &["--lights-together"]);
+    refused("--samples 4", &["--path"]);
 }
 
 #[test]

@@ -6,15 +6,22 @@ use glam::{DMat4, DVec2, DVec3};
 
 /// How far, in pixels, one texel of the map that covers `point` reaches on the screen along the surface there with
 /// `normal`: the largest singular value of ∂pixel/∂texel. `None` where no view covers the point.
+///
+/// `splits` are distances along the camera's view, ascending, at which the view of one layer gives way to that of the next;
+/// without any the first view that covers the point counts.
 pub fn texel_on_screen(
     views: &[LightView],
+    splits: &[f64],
     camera: &CameraView,
     (width, height): (u32, u32),
     point: DVec3,
     normal: DVec3,
 ) -> Option<f64> {
-    let covers = |v: &&LightView| v.project(point).is_some_and(|p| p.x.abs() <= 1.0 && p.y.abs() <= 1.0);
-    let view = views.iter().find(covers)?;
+    let distance = -camera.view_from_world.transform_point3(point).z;
+    let layer = splits.iter().filter(|split| distance >= **split).count() as u32;
+    let is_used = |v: &LightView| splits.is_empty() || v.layer == layer;
+    let covers = |v: &LightView| v.project(point).is_some_and(|p| p.x.abs() <= 1.0 && p.y.abs() <= 1.0);
+    let view = views.iter().find(|v| is_used(v) && covers(v))?;
     let (s, t) = normal.try_normalize()?.any_orthonormal_pair();
     let half = |w: u32, h: u32| DVec2::new(f64::from(w), f64::from(h)) * 0.5;
     // Change of the place in a picture when the point moves along an axis of the surface.

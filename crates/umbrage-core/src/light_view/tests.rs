@@ -103,8 +103,23 @@ fn a_texel_seen_from_the_light_itself_is_a_pixel() {
         view_from_world: glam::DAffine3::IDENTITY,
         clip_from_view: views[0].clip_from_world,
     };
-    let reach = texel_on_screen(&views, &camera, (512, 512), DVec3::ZERO, DVec3::Y).unwrap();
+    let reach = texel_on_screen(&views, &[], &camera, (512, 512), DVec3::ZERO, DVec3::Y).unwrap();
     assert!((reach - 1.0).abs() < 1e-9, "{reach}");
-    let coarse = texel_on_screen(&views, &camera, (2048, 2048), DVec3::ZERO, DVec3::Y).unwrap();
+    let coarse = texel_on_screen(&views, &[], &camera, (2048, 2048), DVec3::ZERO, DVec3::Y).unwrap();
     assert!((coarse - 4.0).abs() < 1e-9, "{coarse}");
+}
+
+#[test]
+fn the_distance_along_the_view_tells_which_split_counts() {
+    let light = LightShape::Directional { direction: DVec3::NEG_Y, angle_deg: 0.0 };
+    let (views, _) = fit_of(&light, Focus::Light, Omni::Cube, 0.0);
+    let coarse = LightView { size: views[0].size / 4, layer: 1, ..views[0].clone() };
+    let views = [views[0].clone(), coarse];
+    // Looks down from 1 m above the floor.
+    let camera = Camera { eye: DVec3::Y, target: DVec3::ZERO, up: DVec3::Z, ..Camera::default() }.view(64, 64);
+    let texel = |splits: &[f64]| texel_on_screen(&views, splits, &camera, (64, 64), DVec3::ZERO, DVec3::Y);
+    let fine = texel(&[]).unwrap();
+    assert_eq!(texel(&[1.5]), Some(fine));
+    assert!((texel(&[0.5]).unwrap() / fine - 4.0).abs() < 1e-9);
+    assert_eq!(texel(&[0.2, 0.5]), None, "there is no third layer");
 }

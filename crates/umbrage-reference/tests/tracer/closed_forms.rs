@@ -8,7 +8,7 @@ use umbrage_reference::closed_form::{
 };
 use umbrage_reference::{Options, Surface, Tracer};
 
-const OPTIONS: Options = Options { samples: 4096, gather: true };
+const OPTIONS: Options = Options { samples: 4096, gather: true, same_points: false };
 
 /// The share of a light above a plane, or `None` for lights without a formula here.
 fn above_plane(light: &Light, p: DVec3, up: DVec3) -> Option<f64> {

@@ -43,8 +43,8 @@ fn gathering_changes_no_bit() {
     let scene = with_leaves();
     let mut some_pass_by = false;
     for light in every_light() {
-        let gathered = trace(&scene, &light, Options { samples: 40, gather: true });
-        let plain = trace(&scene, &light, Options { samples: 40, gather: false });
+        let gathered = trace(&scene, &light, Options { samples: 40, gather: true, ..Options::default() });
+        let plain = trace(&scene, &light, Options { samples: 40, gather: false, ..Options::default() });
         let name = light.shape.kind().name();
         assert!(gathered.visibility == plain.visibility && gathered.scored == plain.scored, "{name}");
         let visible = mean(&plain);
@@ -53,6 +53,42 @@ fn gathering_changes_no_bit() {
         some_pass_by |= gathered.rays < plain.rays / 2;
     }
     assert!(some_pass_by, "gathering spares rays");
+}
+
+#[test]
+fn some_pixels_alone_are_what_they_are_among_all() {
+    let (scene, light) = (still_life(), &every_light()[4]);
+    let tracer = Tracer::new(&scene);
+    let mask = Image::from_fn(32, 24, |x, y| (x + 3 * y) % 5 == 0);
+    let (all, some) = (tracer.geometry(&scene.camera, 32, 24), tracer.geometry_where(&scene.camera, &mask));
+    let trace = |geometry| tracer.visibility(geometry, light, &[], &options(16), &|_, _| ());
+    let (whole, part) = (trace(&all), trace(&some));
+    for (x, y) in (0..24).flat_map(|y| (0..32).map(move |x| (x, y))) {
+        let wanted = mask[(x, y)].then(|| all.surface(x, y)).flatten();
+        assert_eq!(some.surface(x, y), wanted, "at {x}, {y}");
+        assert_eq!(part.scored[(x, y)], mask[(x, y)] && whole.scored[(x, y)]);
+        assert!(!part.scored[(x, y)] || part.visibility[(x, y)] == whole.visibility[(x, y)]);
+    }
+}
+
+#[test]
+fn the_same_points_of_the_light_leave_no_noise() {
+    // Half of the light is hidden, and that alike from points next to each other.
+    let (scene, light) = (still_life(), &every_light()[4]);
+    let near = Camera { fov_y_deg: 1e-4, ..scene.camera.clone() };
+    let tracer = Tracer::new(&scene);
+    let differ = [false, true].map(|same_points| {
+        let penumbra =
+            (0..40).map(|i| Camera { target: near.target + DVec3::new(0.05 * f64::from(i), 0.0, 0.3), ..near.clone() });
+        let changes = penumbra.map(|camera| {
+            let geometry = tracer.geometry(&camera, 8, 8);
+            let options = Options { same_points, ..options(16) };
+            let values = tracer.visibility(&geometry, light, &[], &options, &|_, _| ()).visibility.data;
+            values.iter().filter(|v| **v != values[0]).count()
+        });
+        changes.sum::<usize>()
+    });
+    assert!(differ[0] > 20 && differ[1] == 0, "{differ:?}");
 }
 
 #[test]
@@ -65,8 +101,8 @@ fn lights_that_swallow_the_scene_and_half_the_sky_are_no_exception() {
         LightShape::Sphere { position: DVec3::new(1e9, 2e9, 0.0), radius: 1e7 },
     ];
     for light in lights.map(Light::new) {
-        let gathered = trace(&scene, &light, Options { samples: 40, gather: true });
-        let plain = trace(&scene, &light, Options { samples: 40, gather: false });
+        let gathered = trace(&scene, &light, Options { samples: 40, gather: true, ..Options::default() });
+        let plain = trace(&scene, &light, Options { samples: 40, gather: false, ..Options::default() });
         assert!(gathered.visibility == plain.visibility, "{light:?}");
         assert!(plain.visibility.data.iter().all(|v| (0.0..=1.0).contains(v)));
     }

@@ -1,4 +1,4 @@
-const KINDS = [["color", "Shaded"], ["visibility", "Visibility"], ["error", "Signed error"], ["hard", "Perfect hard shadow"]];
+const KINDS = [["color", "Shaded"], ["visibility", "Visibility"], ["error", "Signed error"], ["aliasing", "Texel size"], ["hard", "Perfect hard shadow"]];
 const COLUMNS = data.metrics.map((m) => ({ ...m, value: (r) => m.path.reduce((v, key) => v?.[key], r) ?? null }));
 
 function number(value, column) {
@@ -75,7 +75,7 @@ function lightBlock(scene, s, light, l) {
 function sceneSection(scene, s) {
   const facts = `${scene.triangles.toLocaleString("en")} triangles in ${scene.instances.toLocaleString("en")} instances, ${scene.width} × ${scene.height} pixels`;
   return el("section", { id: anchor(s) }, el("h2", {}, scene.name, el("small", {}, facts)), scene.notes.map((n) => el("p", { class: "note" }, n)),
-    el("p", { class: "legend" }, "signed error: false shadow −0.25", el("i", { "aria-hidden": "true" }), "+0.25 leaking light; dark: not scored"),
+    el("p", { class: "legend" }, "signed error: false shadow −0.25", el("i", { "aria-hidden": "true" }), "+0.25 leaking light; dark: not scored. Texel size: blue under a pixel, white 2 pixels, orange 4, red 16 and more; dark: no map"),
     scene.lights.map((light, l) => lightBlock(scene, s, light, l)));
 }
 

@@ -82,6 +82,8 @@ impl Timing<'_> {
             size: self.size,
             frames: self.frames,
             moving: Moving::None,
+            path: None,
+            samples: 1,
             together: false,
             overlay: false,
             command: Vec::new(),
@@ -175,6 +177,8 @@ mod tests {
             cost: Some(cost(gpu_ms, 0.5, frame_ms)),
             vs_floor: None,
             vs_bare_minimum: None,
+            flicker: None,
+            flicker_ratio: None,
         }
     }
 

@@ -52,8 +52,14 @@ pub fn against_truth(
     let options = Options { samples, ..Options::default() };
     let truth = tracer.visibility(&geometry, &scene.lights[light], &scene.textures, &options, &|_, _| ());
     let mask = mask(&truth, &geometry, 60.0);
-    let views = renderer.technique(0).unwrap().light_views();
-    let reach = map_reach(views, &scene.camera, &geometry.depth, &geometry.normal);
+    let technique = renderer.technique(0).unwrap();
+    let reach = map_reach(
+        technique.light_views(),
+        technique.split_distances(),
+        &scene.camera,
+        &geometry.depth,
+        &geometry.normal,
+    );
     let reference = &truth.visibility;
     score(&Comparison { produced: &produced, reference, mask: &mask, hard: None, reach: Some(&reach) }).unwrap()
 }

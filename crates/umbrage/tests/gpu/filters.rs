@@ -251,8 +251,14 @@ fn means(gpu: &Gpu, scene: &Scene, light: usize, info: &TechniqueInfo, sizes: [u
         let mut renderer = renderer(gpu, scene, light, info.id, &format!("size={map}"), (width, height));
         let seen = visibility(&mut renderer, scene);
         let counted: &Image<bool> = counted.get_or_insert_with(|| {
-            let views = renderer.technique(0).unwrap().light_views();
-            let reach = map_reach(views, &scene.camera, &geometry.depth, &geometry.normal);
+            let technique = renderer.technique(0).unwrap();
+            let reach = map_reach(
+                technique.light_views(),
+                technique.split_distances(),
+                &scene.camera,
+                &geometry.depth,
+                &geometry.normal,
+            );
             far(&truth.visibility, &mask, &reach)
         });
         let mean = |value: f32| {
@@ -291,8 +297,14 @@ fn what_is_far_from_edges_does_not_depend_on_the_size_of_the_map() {
 fn scores(gpu: &Gpu, scene: &Scene, light: usize, info: &TechniqueInfo, stored: &StoredReference) -> [f64; 3] {
     let mut renderer = renderer(gpu, scene, light, info.id, "", size(stored));
     let produced = visibility(&mut renderer, scene);
-    let views = renderer.technique(0).unwrap().light_views();
-    let reach = map_reach(views, &scene.camera, &stored.depth, &stored.normal.map(|n| (*n).into()));
+    let technique = renderer.technique(0).unwrap();
+    let reach = map_reach(
+        technique.light_views(),
+        technique.split_distances(),
+        &scene.camera,
+        &stored.depth,
+        &stored.normal.map(|n| (*n).into()),
+    );
     let (reference, mask) = (&stored.visibility, shared_references::mask(stored));
     // What is not a number is off by 1.
     let off = |i: usize| f64::from(1.0_f32.min((produced.data[i] - reference.data[i]).abs()));

@@ -10,8 +10,14 @@ use umbrage_reference::{Options, Tracer};
 fn scores(mut renderer: Renderer, scene: &Scene, stored: &StoredReference, hard: Option<&Image<f32>>) -> Scores {
     let produced = visibility(&mut renderer, scene);
     let mask = mask(stored);
-    let views = renderer.technique(0).unwrap().light_views();
-    let reach = map_reach(views, &scene.camera, &stored.depth, &stored.normal.map(|n| (*n).into()));
+    let technique = renderer.technique(0).unwrap();
+    let reach = map_reach(
+        technique.light_views(),
+        technique.split_distances(),
+        &scene.camera,
+        &stored.depth,
+        &stored.normal.map(|n| (*n).into()),
+    );
     let reference = &stored.visibility;
     score(&Comparison { produced: &produced, reference, mask: &mask, hard, reach: Some(&reach) }).unwrap()
 }

@@ -117,8 +117,14 @@ impl Traced {
     pub fn score(&self, gpu: &Gpu, id: &str, set: &str) -> Scores {
         let mut renderer = renderer(gpu, &self.scene, 0, id, set, self.geometry.depth.size());
         let produced = visibility(&mut renderer, &self.scene);
-        let views = renderer.technique(0).unwrap().light_views();
-        let reach = map_reach(views, &self.scene.camera, &self.geometry.depth, &self.geometry.normal);
+        let technique = renderer.technique(0).unwrap();
+        let reach = map_reach(
+            technique.light_views(),
+            technique.split_distances(),
+            &self.scene.camera,
+            &self.geometry.depth,
+            &self.geometry.normal,
+        );
         let (reference, mask) = (&self.truth.visibility, &self.mask);
         score(&Comparison { produced: &produced, reference, mask, hard: None, reach: Some(&reach) }).unwrap()
     }
