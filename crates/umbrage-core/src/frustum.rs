@@ -52,11 +52,7 @@ impl Frustum {
 
     /// True where the whole box is inside.
     pub fn holds(&self, bounds: &Bounds) -> bool {
-        let (center, half) = (bounds.center(), bounds.size() * 0.5);
-        self.planes.iter().all(|p| {
-            let normal = p.truncate();
-            normal.dot(center) + p.w - normal.abs().dot(half) >= 0.0
-        })
+        self.planes.iter().all(|plane| holds(plane, bounds))
     }
 
     /// Appends the corners of box ∩ frustum, a convex body, to `points`.
@@ -66,21 +62,26 @@ impl Frustum {
         if !self.may_see(bounds) {
             return;
         }
-        if self.holds(bounds) {
-            points.extend(bounds.corners());
+        let c = bounds.corners();
+        let cutting = || self.planes.iter().filter(|plane| !holds(plane, bounds));
+        if cutting().next().is_none() {
+            points.extend(c);
             return;
         }
         // The faces of the box, cut by every plane; and the edges of the frustum, cut by the box, come out of the
         // same polygons only where they lie in a face, so the frustum's own corners inside the box are added too.
-        let c = bounds.corners();
         const FACES: [[usize; 4]; 6] =
             [[0, 2, 6, 4], [1, 5, 7, 3], [0, 4, 5, 1], [2, 3, 7, 6], [0, 1, 3, 2], [4, 6, 7, 5]];
+        let (mut polygon, mut cut) = (Vec::with_capacity(16), Vec::with_capacity(16));
         for face in FACES {
-            let mut polygon = face.map(|i| c[i]).to_vec();
-            for plane in &self.planes {
-                polygon = clip_polygon(&polygon, *plane);
+            polygon.clear();
+            polygon.extend(face.map(|i| c[i]));
+            for plane in cutting() {
+                cut.clear();
+                clip(&polygon, *plane, &mut cut);
+                std::mem::swap(&mut polygon, &mut cut);
             }
-            points.extend(polygon);
+            points.extend(&polygon);
         }
         let inside = bounds.grown(1e-9 * bounds.size().max_element());
         points.extend(self.corners.iter().copied().filter(|p| p.cmpge(inside.min).all() && p.cmple(inside.max).all()));
@@ -90,6 +91,13 @@ impl Frustum {
     pub fn corners(&self) -> &[DVec3] {
         &self.corners
     }
+}
+
+/// True where the whole box is on the inner side of a plane.
+fn holds(plane: &DVec4, bounds: &Bounds) -> bool {
+    let (center, half) = (bounds.center(), bounds.size() * 0.5);
+    let normal = plane.truncate();
+    normal.dot(center) + plane.w - normal.abs().dot(half) >= 0.0
 }
 
 fn corners(planes: &[DVec4]) -> Vec<DVec3> {
@@ -117,8 +125,14 @@ fn corners(planes: &[DVec4]) -> Vec<DVec3> {
 
 /// The part of a convex polygon on the inner side of `plane` (Sutherland–Hodgman).
 pub fn clip_polygon(polygon: &[DVec3], plane: DVec4) -> Vec<DVec3> {
-    let side = |p: DVec3| plane.truncate().dot(p) + plane.w;
     let mut out = Vec::with_capacity(polygon.len() + 1);
+    clip(polygon, plane, &mut out);
+    out
+}
+
+/// The same, appended to `out`.
+fn clip(polygon: &[DVec3], plane: DVec4, out: &mut Vec<DVec3>) {
+    let side = |p: DVec3| plane.truncate().dot(p) + plane.w;
     for (i, &a) in polygon.iter().enumerate() {
         let b = polygon[(i + 1) % polygon.len()];
         let (da, db) = (side(a), side(b));
@@ -129,7 +143,6 @@ pub fn clip_polygon(polygon: &[DVec3], plane: DVec4) -> Vec<DVec3> {
             out.push(a + (b - a) * (da / (da - db)));
         }
     }
-    out
 }
 
 #[cfg(test)]

@@ -5,6 +5,11 @@
 //! the cell that its centre is in, of the smallest size that is not below its own, and a node's box is its cell grown to
 //! twice the size. So an object on a split is stored as deep as any other, and one that moves to and fro across it
 //! stays where it is.
+//!
+//! Each node also knows the box around what is in and below it, its *content*: queries and cuts go by that.
+
+mod content;
+mod cut;
 
 use crate::bounds::Bounds;
 use glam::DVec3;
@@ -31,6 +36,8 @@ struct Node {
     half: f64,
     /// What the node's objects are within: the loose cell. Not so for the root, which holds what fits nowhere.
     bounds: Bounds,
+    /// Around the boxes of the objects in and below the node.
+    content: Bounds,
     depth: u32,
     parent: u32,
     /// This node's place in its parent.
@@ -86,6 +93,7 @@ impl SceneTree {
         }
         let place = can_be_found(&bounds).then(|| {
             let node = self.home(&bounds);
+            self.grow_content(node, &bounds);
             self.enter(node, object)
         });
         self.entries[index] = Some(Entry { bounds, place });
@@ -105,15 +113,20 @@ impl SceneTree {
             entry.place = Some(place);
         }
         self.leave(place.node);
+        self.shrink_content(place.node, &entry.bounds);
     }
 
     /// Moves `object`: no more than storing its box where it still fits its node and would fit no smaller one. An unknown
     /// number is added.
     pub fn update(&mut self, object: u32, bounds: Bounds) {
         let entry = self.entries.get(object as usize).copied().flatten();
-        match entry.and_then(|e| e.place) {
-            Some(place) if can_be_found(&bounds) && self.stays(place.node, &bounds) => {
+        match entry {
+            Some(Entry { place: Some(place), bounds: before })
+                if can_be_found(&bounds) && self.stays(place.node, &bounds) =>
+            {
                 self.entries[object as usize] = Some(Entry { bounds, place: Some(place) });
+                self.grow_content(place.node, &bounds);
+                self.shrink_content(place.node, &before);
             }
             _ => self.insert(object, bounds),
         }
@@ -144,7 +157,7 @@ impl SceneTree {
         let touched = |o: &u32| self.bounds(*o).is_some_and(|b| volume.may_touch(&b));
         found.extend(node.objects.iter().copied().filter(touched));
         for child in self.occupied_children(node) {
-            match volume.side(&child.bounds) {
+            match volume.side(&child.around_content()) {
                 Side::Outside => {}
                 Side::Partly => self.gather_touched(child, volume, found),
                 Side::Inside => self.gather_all(child, found),
@@ -231,8 +244,9 @@ impl Node {
     fn new(center: DVec3, half: f64, depth: u32, parent: u32, octant: usize) -> Self {
         let loose = DVec3::splat(2.0 * half);
         let bounds = Bounds { min: center - loose, max: center + loose };
-        let bounds = bounds.grown(ROUNDING * bounds.largest_coordinate());
-        Self { center, half, bounds, depth, parent, octant, children: [ROOT; 8], occupied: 0, objects: Vec::new() }
+        let (bounds, content) = (grown_by_rounding(bounds), Bounds::EMPTY);
+        let (children, objects) = ([ROOT; 8], Vec::new());
+        Self { center, half, bounds, content, depth, parent, octant, children, occupied: 0, objects }
     }
 
     fn has_center(&self, point: DVec3) -> bool {
@@ -247,6 +261,10 @@ impl Node {
     fn is_vacant(&self) -> bool {
         self.objects.is_empty() && self.occupied == 0
     }
+}
+
+fn grown_by_rounding(bounds: Bounds) -> Bounds {
+    bounds.grown(ROUNDING * bounds.largest_coordinate())
 }
 
 fn can_be_found(bounds: &Bounds) -> bool {

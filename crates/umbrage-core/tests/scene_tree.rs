@@ -109,6 +109,26 @@ fn check(tree: &SceneTree, list: &List, volume: &impl Volume) -> Result<(), Test
     Ok(())
 }
 
+/// Cuts of any size hold what a list would find; large ones are that list.
+fn check_cut(tree: &SceneTree, list: &List, volume: &impl Volume) -> Result<(), TestCaseError> {
+    let touched: Vec<Bounds> =
+        list.values().copied().filter(|b| finite(b) && volume.side(b) != Side::Outside).collect();
+    for most in [0, 1, 2, 5, 13, 40, 1000] {
+        let mut boxes = vec![Bounds::EMPTY];
+        tree.cut(volume, most, &mut boxes);
+        prop_assert_eq!(boxes.remove(0), Bounds::EMPTY, "a cut only appends");
+        prop_assert!(boxes.len() <= most.max(1), "{} boxes in place of {}", boxes.len(), most);
+        for object in &touched {
+            let held = boxes.iter().any(|b| b.union(*object) == *b);
+            prop_assert!(held, "{:?} is in none of {} boxes", object, boxes.len());
+        }
+        if most == 1000 {
+            prop_assert_eq!(boxes.len(), touched.len());
+        }
+    }
+    Ok(())
+}
+
 fn frustum(eye: DVec3, target: DVec3, fov_y_deg: f64) -> Frustum {
     let camera = Camera { eye, target, fov_y_deg, ..Camera::default() };
     Frustum::of(&camera.view(4, 3).clip_from_world())
@@ -133,6 +153,11 @@ proptest! {
             // By their text, because a box that is not a number differs from itself.
             prop_assert_eq!(format!("{:?}", tree.bounds(object)), format!("{:?}", list.get(&object).copied()));
         }
+        let content = list.values().copied().filter(finite).fold(Bounds::EMPTY, Bounds::union);
+        prop_assert_eq!(tree.content(), content);
+        check_cut(&tree, &list, &around(center, half))?;
+        check_cut(&tree, &list, &Sphere { center, radius: f64::INFINITY })?;
+        check_cut(&tree, &list, &frustum(eye, target, fov_y_deg))?;
         check(&tree, &list, &around(center, half))?;
         check(&tree, &list, &Sphere { center, radius: half.length() })?;
         check(&tree, &list, &Sphere { center, radius: f64::INFINITY })?;
@@ -198,6 +223,35 @@ fn a_query_far_from_most_objects_asks_about_few() {
 fn what_is_wholly_inside_is_not_asked_about() {
     let (asked, found) = questions(&town(), around(DVec3::ZERO, DVec3::splat(1e3)));
     assert!(found == 10_000 && asked <= 8, "{asked} questions for {found} objects");
+}
+
+/// A square of `side` × `side` objects, five metres from one to the next.
+fn fields(side: u32) -> SceneTree {
+    let extent = f64::from(side) * 2.5;
+    let mut tree = SceneTree::new(around(DVec3::ZERO, DVec3::new(extent, 1.0, extent)));
+    for i in 0..side * side {
+        let (x, z) = (f64::from(i % side) * 5.0 - extent, f64::from(i / side) * 5.0 - extent);
+        tree.insert(i, around(DVec3::new(x, 0.0, z), DVec3::ONE));
+    }
+    tree
+}
+
+#[test]
+fn a_cut_asks_little_more_in_a_larger_world() {
+    let volumes =
+        [frustum(DVec3::new(0.0, 2.0, 0.0), DVec3::new(10.0, 1.0, 3.0), 60.0), frustum(DVec3::Y, DVec3::Z, 20.0)];
+    for seen in volumes {
+        let asked = [32, 100, 320].map(|side| {
+            let (counted, mut boxes) = (Counted(seen.clone(), Cell::new(0)), Vec::new());
+            fields(side).cut(&counted, 256, &mut boxes);
+            assert!(!boxes.is_empty() && boxes.len() <= 256, "{} boxes", boxes.len());
+            counted.1.get()
+        });
+        assert!(
+            asked[2] < 1_500 && asked[2] < 2 * asked[0],
+            "questions of 1,000, 10,000 and 100,000 objects: {asked:?}"
+        );
+    }
 }
 
 #[test]

@@ -47,7 +47,8 @@ pub fn floor(gpu: &Gpu) -> Box<dyn Technique> {
 /// # Errors
 /// [`Error::Size`] beyond the adapter's limit.
 pub fn bare_minimum(gpu: &Gpu, size: u32) -> Result<Box<dyn Technique>, Error> {
-    let settings = techniques::shadow_map::INFO.settings(&[("size".into(), size.to_string())])?;
+    let set = [("size".into(), size.to_string()), ("cache".into(), "off".into())];
+    let settings = techniques::shadow_map::INFO.settings(&set)?;
     Ok(Box::new(MapTechnique::new(gpu, &settings, &BARE, 0.0, &[])?.with_every_caster()))
 }
 

@@ -14,11 +14,15 @@ mod draw_list;
 mod edges;
 mod eye_tree;
 mod material;
+mod moves;
+mod places;
 mod sides;
-pub(crate) use draw_list::{DrawList, Light, Which};
+pub(crate) use draw_list::{DrawList, InstanceNumbers, Light};
 pub(crate) use edges::{EDGES_WGSL, Edge, Edges, MeshEdges};
 pub(crate) use eye_tree::Sight;
 pub(crate) use material::{MATERIAL_LAYOUT, MATERIALS_WGSL, texture_layout};
+pub(crate) use moves::Moves;
+pub(crate) use places::Places;
 pub(crate) use sides::Sides;
 
 /// Declares `Instance` and how a vertex gets into the world.
@@ -57,13 +61,19 @@ pub struct Casters {
     placed: Vec<Placed>,
     /// Where in `placed` each instance is.
     place_of: Vec<u32>,
+    /// The number of the instance at each place and the batch that it belongs to: what lists need, packed.
+    number_of: Vec<u32>,
+    batch_of: Vec<u32>,
     /// Boxes of the instances that throw shadows, by their place in `placed`.
-    tree: SceneTree,
+    casting: SceneTree,
+    /// Boxes of those that shadows fall on.
+    receiving: SceneTree,
+    /// Places of those that do neither.
+    bystanders: Vec<u32>,
+    moves: Moves,
     /// Positions and indices alone, for what is made of them on demand.
     meshes: Vec<MeshPart>,
     edges: OnceLock<Edges>,
-    /// Boxes around everything and around all receivers, made when asked for.
-    around: OnceLock<[Bounds; 2]>,
     bytes: u64,
 }
 
@@ -82,6 +92,8 @@ struct Batch {
     /// Index into the textures.
     texture: usize,
     masked: bool,
+    /// The mesh lies in a plane.
+    flat: bool,
     /// Indices into `placed`.
     members: Range<usize>,
 }
@@ -149,6 +161,7 @@ impl Casters {
                     base_vertex,
                     texture: texture.map_or(0, |t| t + 1),
                     masked,
+                    flat: plane.is_some(),
                     members: placed.len()..placed.len(),
                 });
             }
@@ -189,11 +202,18 @@ impl Casters {
         let bind_group = bind(gpu, "casters", &Self::layout(gpu), &buffers);
         let textures = material::textures(gpu, scene)?;
         let mut place_of = vec![0; placed.len()];
-        let mut tree = SceneTree::new(scene.bounds());
+        let (mut casting, mut receiving) = (SceneTree::new(scene.bounds()), SceneTree::new(scene.bounds()));
+        let mut bystanders = Vec::new();
         for (place, p) in (0..).zip(&placed) {
             place_of[p.number as usize] = place;
             if p.casts {
-                tree.insert(place, p.bounds);
+                casting.insert(place, p.bounds);
+            }
+            if p.receives {
+                receiving.insert(place, p.bounds);
+            }
+            if !p.casts && !p.receives {
+                bystanders.push(place);
             }
         }
         Ok(Self {
@@ -204,13 +224,17 @@ impl Casters {
             indices,
             instances,
             textures,
+            moves: Moves::new(placed.len()),
+            number_of: placed.iter().map(|p| p.number).collect(),
+            batch_of: (0..).zip(&batches).flat_map(|(i, b): (u32, &Batch)| b.members.clone().map(move |_| i)).collect(),
             batches,
             placed,
             place_of,
-            tree,
+            casting,
+            receiving,
+            bystanders,
             meshes,
             edges: OnceLock::new(),
-            around: OnceLock::new(),
             bytes,
         })
     }
@@ -221,22 +245,35 @@ impl Casters {
     }
 
     /// Moves an instance (by its place in [`Scene::instances`]); one small upload, nothing is rebuilt. A number that is not
-    /// in the scene changes nothing.
+    /// in the scene changes nothing, nor does a place that the instance has already: whoever has not moved lately is at
+    /// rest, and maps of those at rest are kept.
     pub fn move_instance(&mut self, gpu: &Gpu, instance: usize, world_from_mesh: &DAffine3) {
         let Some(&place) = self.place_of.get(instance) else { return };
         let placed = &mut self.placed[place as usize];
+        if placed.world_from_mesh == *world_from_mesh {
+            return;
+        }
         placed.world_from_mesh = *world_from_mesh;
         placed.sides = Sides::of(world_from_mesh);
         placed.bounds = placed.mesh_bounds.transformed(world_from_mesh);
-        if placed.casts {
-            self.tree.update(place, placed.bounds);
-        }
-        self.around = OnceLock::new();
         placed.plane = placed.mesh_plane.map(|p| moved_plane(p, world_from_mesh));
         let Instance { row0, row1, row2, .. } = rows(world_from_mesh, self.origin);
         placed.data = Instance { row0, row1, row2, ..placed.data };
         let at = instance as u64 * size_of::<Instance>() as u64;
         gpu.queue.write_buffer(&self.instances, at, bytemuck::bytes_of(&placed.data));
+        self.note_moved(place);
+    }
+
+    /// After the box of the instance at this place, or what is in it, has changed.
+    pub(crate) fn note_moved(&mut self, place: u32) {
+        let placed = &self.placed[place as usize];
+        if placed.casts {
+            self.casting.update(place, placed.bounds);
+            self.moves.push(place);
+        }
+        if placed.receives {
+            self.receiving.update(place, placed.bounds);
+        }
     }
 
     /// What GPU world space is relative to: the middle of the scene when it was uploaded.
@@ -266,24 +303,28 @@ impl Casters {
 
     /// A box around everything that shadows fall on.
     pub(crate) fn receivers_bounds(&self) -> Bounds {
-        self.around()[1]
+        self.receiving.content()
     }
 
     /// A box around everything.
     pub(crate) fn all_bounds(&self) -> Bounds {
-        self.around()[0]
-    }
-
-    fn around(&self) -> &[Bounds; 2] {
-        self.around.get_or_init(|| {
-            let all = self.placed.iter().map(|p| p.bounds).fold(Bounds::EMPTY, Bounds::union);
-            [all, self.receiving_bounds().fold(Bounds::EMPTY, Bounds::union)]
-        })
+        let bystanders = self.bystanders.iter().map(|place| self.placed[*place as usize].bounds);
+        bystanders.fold(self.casting.content().union(self.receiving.content()), Bounds::union)
     }
 
     /// The instances that throw shadows, for queries; its numbers are those of [`Casters::placed`].
-    pub(crate) fn tree(&self) -> &SceneTree {
-        &self.tree
+    pub(crate) fn casting(&self) -> &SceneTree {
+        &self.casting
+    }
+
+    /// The instances that shadows fall on, with the same numbers.
+    pub(crate) fn receiving(&self) -> &SceneTree {
+        &self.receiving
+    }
+
+    /// Which casters moved when.
+    pub(crate) fn moves(&self) -> &Moves {
+        &self.moves
     }
 
     /// The instances in the order of the batches.

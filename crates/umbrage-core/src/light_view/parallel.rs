@@ -48,15 +48,19 @@ fn tightest_axes(direction: DVec3, points: &[DVec3], focus: Focus) -> (DVec3, DV
         return axes(0.0);
     }
     // A few extreme points in fixed directions stand for the hull.
-    let hull: Vec<DVec3> = (0..32)
-        .filter_map(|i| {
-            let (u, _) = axes(std::f64::consts::TAU * f64::from(i) / 32.0);
-            points.iter().copied().max_by(|p, q| u.dot(*p).total_cmp(&u.dot(*q)))
-        })
-        .collect();
+    let flat: Vec<DVec2> = points.iter().map(|p| DVec2::new(a.dot(*p), b.dot(*p))).collect();
+    let hull = (0..32).filter_map(|i| {
+        let u = DVec2::from_angle(std::f64::consts::TAU * f64::from(i) / 32.0);
+        let farthest = |(best, most): (Option<DVec2>, f64), p: &DVec2| {
+            let along = u.dot(*p);
+            if along > most { (Some(*p), along) } else { (best, most) }
+        };
+        flat.iter().fold((None, f64::NEG_INFINITY), farthest).0
+    });
+    let hull: Vec<DVec2> = hull.collect();
     let area = |angle: f64| {
-        let (u, v) = axes(angle);
-        Rect::of(hull.iter().map(|p| DVec2::new(u.dot(*p), v.dot(*p))))
+        let u = DVec2::from_angle(angle);
+        Rect::of(hull.iter().map(|p| DVec2::new(u.dot(*p), u.perp_dot(*p))))
             .map_or(0.0, |r| (r.max - r.min).element_product())
     };
     let best = (0..24)

@@ -3,19 +3,8 @@
 use super::{Casters, Placed};
 use crate::{gpu::Gpu, passes::Passes};
 use std::ops::Range;
+use umbrage_core::Bounds;
 use umbrage_core::glam::{DVec3, DVec4};
-use umbrage_core::{Bounds, Frustum};
-
-/// Which instances a draw list is about.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Which {
-    /// All of them.
-    Visible,
-    /// Those that throw shadows.
-    Casting,
-    /// Those whose shadow can fall on something.
-    Shadowing(Light),
-}
 
 /// A light and what its shadows may fall on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,49 +25,29 @@ impl Placed {
         let beyond = |p: DVec3| side.signum() * plane.dot(p.extend(1.0)) < -rounding;
         side != 0.0 && !light.receivers.corners().into_iter().any(beyond)
     }
-
-    fn is_in(&self, which: &Which) -> bool {
-        match which {
-            Which::Visible => true,
-            Which::Casting => self.casts,
-            Which::Shadowing(light) => self.casts && !self.shadows_nothing(light),
-        }
-    }
 }
 
-/// What one view draws: filled on the CPU, uploaded when recorded. Keeps its memory from frame to frame.
+/// The numbers of the instances that the views of a frame draw: filled on the CPU, all in one buffer that is uploaded
+/// once. Keeps its memory from frame to frame.
+#[derive(Default)]
+pub(crate) struct InstanceNumbers {
+    numbers: Vec<u32>,
+    /// Members of each batch, then where its next one goes.
+    slots: Vec<u32>,
+    buffer: Option<wgpu::Buffer>,
+}
+
+/// What a view draws: a part of the numbers for each batch.
 #[derive(Default)]
 pub(crate) struct DrawList {
-    ids: Vec<u32>,
     draws: Vec<(usize, Range<u32>)>,
-    buffer: Option<wgpu::Buffer>,
-    /// Instances that the view doesn't see.
-    pub culled: u32,
 }
 
-impl DrawList {
-    /// Chooses the instances that `frustum` may see.
-    pub fn fill(&mut self, gpu: &Gpu, casters: &Casters, which: Which, frustum: &Frustum) {
-        self.ids.clear();
-        self.draws.clear();
-        self.culled = 0;
-        for (i, batch) in casters.batches.iter().enumerate() {
-            let first = self.ids.len() as u32;
-            for placed in &casters.placed[batch.members.clone()] {
-                if !placed.is_in(&which) {
-                    continue;
-                }
-                if frustum.may_see(&placed.bounds) {
-                    self.ids.push(placed.number);
-                } else {
-                    self.culled += 1;
-                }
-            }
-            if self.ids.len() as u32 > first && !batch.indices.is_empty() {
-                self.draws.push((i, first..self.ids.len() as u32));
-            }
-        }
-        let needed = (casters.placed.len() as u64 * 4).max(16);
+impl InstanceNumbers {
+    /// Starts a frame in which every instance may be in so many lists.
+    pub fn clear(&mut self, gpu: &Gpu, casters: &Casters, lists: u32) {
+        self.numbers.clear();
+        let needed = (casters.placed.len() as u64 * u64::from(lists) * 4).max(16);
         if self.buffer.as_ref().is_none_or(|b| b.size() < needed) {
             self.buffer = Some(gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("instance numbers"),
@@ -89,31 +58,60 @@ impl DrawList {
         }
     }
 
-    /// Uploads the list; before the pass that draws it.
-    pub fn upload(&self, passes: &mut Passes<'_>) {
-        if let Some(buffer) = &self.buffer {
-            passes.upload(buffer, bytemuck::cast_slice(&self.ids));
+    /// Lists instances, by their places, for one view; but for those that can shadow nothing where a light is given.
+    pub fn list(&mut self, casters: &Casters, places: &[u32], light: Option<&Light>, list: &mut DrawList) {
+        list.clear();
+        self.slots.clear();
+        self.slots.resize(casters.batches.len(), 0);
+        let is_idle = |place: u32, batch: u32| {
+            casters.batches[batch as usize].flat
+                && light.is_some_and(|light| casters.placed[place as usize].shadows_nothing(light))
+        };
+        let drawn =
+            || places.iter().map(|place| (*place, casters.batch_of[*place as usize])).filter(|(p, b)| !is_idle(*p, *b));
+        drawn().for_each(|(_, batch)| self.slots[batch as usize] += 1);
+        let mut next = self.numbers.len() as u32;
+        for (batch, slot) in self.slots.iter_mut().enumerate() {
+            let first = next;
+            next += std::mem::replace(slot, first);
+            if next > first && !casters.batches[batch].indices.is_empty() {
+                list.draws.push((batch, first..next));
+            }
+        }
+        self.numbers.resize(next as usize, 0);
+        for (place, batch) in drawn() {
+            let slot = &mut self.slots[batch as usize];
+            self.numbers[*slot as usize] = casters.number_of[place as usize];
+            *slot += 1;
         }
     }
 
-    /// Draws the list with positions in vertex buffer 0, instance numbers in 1 and attributes in 2. `pipeline` chooses
+    /// Uploads the lists; before the first pass that draws one.
+    pub fn upload(&self, passes: &mut Passes<'_>) {
+        if let Some(buffer) = &self.buffer {
+            passes.upload(buffer, bytemuck::cast_slice(&self.numbers));
+        }
+    }
+
+    /// Draws a list with positions in vertex buffer 0, instance numbers in 1 and attributes in 2. `pipeline` chooses
     /// the pipeline of opaque (false) and alpha-masked (true) meshes; textures are bound as group 2 for the latter,
     /// and for all where `textured`.
     pub fn draw<'p>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         casters: &Casters,
+        list: &DrawList,
         textured: bool,
         pipeline: impl Fn(bool) -> &'p wgpu::RenderPipeline,
     ) {
-        let Some(ids) = &self.buffer else { return };
+        let Some(numbers) = &self.buffer else { return };
         pass.set_bind_group(1, &casters.bind_group, &[]);
         pass.set_vertex_buffer(0, casters.positions.slice(..));
-        pass.set_vertex_buffer(1, ids.slice(..));
+        pass.set_vertex_buffer(1, numbers.slice(..));
         pass.set_vertex_buffer(2, casters.attributes.slice(..));
         pass.set_index_buffer(casters.indices.slice(..), wgpu::IndexFormat::Uint32);
         let mut current = None;
-        for (batch, instances) in &self.draws {
+        for (batch, instances) in &list.draws {
             let batch = &casters.batches[*batch];
             if current != Some(batch.masked) {
                 current = Some(batch.masked);
@@ -126,6 +124,18 @@ impl DrawList {
         }
     }
 
+    /// Bytes of GPU memory.
+    pub fn bytes(&self) -> u64 {
+        self.buffer.as_ref().map_or(0, wgpu::Buffer::size)
+    }
+}
+
+impl DrawList {
+    /// Draws nothing.
+    pub fn clear(&mut self) {
+        self.draws.clear();
+    }
+
     /// Draw calls.
     pub fn draws(&self) -> u32 {
         self.draws.len() as u32
@@ -133,19 +143,14 @@ impl DrawList {
 
     /// Instances drawn.
     pub fn drawn(&self) -> u32 {
-        self.ids.len() as u32
+        self.draws.iter().map(|(_, instances)| instances.end - instances.start).sum()
     }
 
     /// Triangles drawn.
     pub fn triangles(&self, casters: &Casters) -> u64 {
-        let of = |(batch, ids): &(usize, Range<u32>)| {
-            u64::from(casters.batches[*batch].indices.len() as u32 / 3) * u64::from(ids.end - ids.start)
+        let of = |(batch, instances): &(usize, Range<u32>)| {
+            u64::from(casters.batches[*batch].indices.len() as u32 / 3) * u64::from(instances.end - instances.start)
         };
         self.draws.iter().map(of).sum()
-    }
-
-    /// Bytes of GPU memory.
-    pub fn bytes(&self) -> u64 {
-        self.buffer.as_ref().map_or(0, wgpu::Buffer::size)
     }
 }

@@ -70,6 +70,8 @@ struct Made {
     buffer: wgpu::Buffer,
     /// For each layer, its levels from the finest.
     layers: Vec<Vec<wgpu::BindGroup>>,
+    /// By layer: the version of the map that bounds were last taken of.
+    taken: Vec<u64>,
 }
 
 impl BoundsPyramid {
@@ -119,15 +121,23 @@ impl BoundsPyramid {
         self.made.as_ref().map(|m| &m.buffer)
     }
 
-    /// Fills the layers that were rendered.
-    pub(crate) fn record(&self, passes: &mut Passes<'_>, maps: &DepthMaps) {
-        let Some(made) = &self.made else { return };
+    /// Fills the layers that were rendered since.
+    pub(crate) fn record(&mut self, passes: &mut Passes<'_>, maps: &DepthMaps) {
+        let Some(made) = &mut self.made else { return };
+        let mut is_new = |layer: u32| {
+            let now = maps.version(layer);
+            std::mem::replace(&mut made.taken[layer as usize], now) != now
+        };
+        let layers: Vec<u32> = maps.views.iter().map(|view| view.layer).filter(|layer| is_new(*layer)).collect();
+        if layers.is_empty() {
+            return;
+        }
         let mut pass = passes.compute("map bounds");
         for level in 0..made.head.levels {
             pass.set_pipeline(if level == 0 { &self.of_map } else { &self.of_bounds });
             let groups = (made.head.cells >> level).div_ceil(WORKGROUP);
-            for view in &maps.views {
-                pass.set_bind_group(0, &made.layers[view.layer as usize][level as usize], &[]);
+            for layer in &layers {
+                pass.set_bind_group(0, &made.layers[*layer as usize][level as usize], &[]);
                 pass.dispatch_workgroups(groups, groups, 1);
             }
         }
@@ -158,6 +168,6 @@ impl BoundsPyramid {
             bind(gpu, "map bounds", &self.layout, &resources)
         };
         let layers = (0..count).map(|layer| (0..head.levels).map(|level| one(layer, level)).collect()).collect();
-        Made { maps: maps.clone(), head, buffer, layers }
+        Made { maps: maps.clone(), head, buffer, layers, taken: vec![0; count as usize] }
     }
 }

@@ -2,19 +2,23 @@
 //! through `wgsl/map_lookup.wgsl`.
 
 mod bounds;
+mod cache;
 mod extent;
+mod layer;
 mod lookup;
+mod movers;
 mod params;
 mod phases;
 mod pipelines;
 mod soft;
 mod stage;
+mod submission;
 mod taps;
 mod textures;
 mod uniforms;
 
 use crate::{
-    casters::{self, Casters, DrawList, Which},
+    casters::{self, Casters},
     error::Error,
     gpu::Gpu,
     params::Settings,
@@ -25,11 +29,15 @@ use crate::{
     visibility::VisibilityTarget,
 };
 pub(crate) use bounds::BOUNDS_SHADER;
+use cache::{Frame, Work};
+use layer::{Layer, Lists};
 use lookup::Lookup;
-pub(crate) use params::{BIAS, DEPTH, FACES, FOCUS, OMNI, SIZE};
+use movers::Movers;
+pub(crate) use params::{BIAS, CACHE, DEPTH, FACES, FOCUS, OMNI, SIZE};
 use pipelines::{Kind, Pipelines};
 pub(crate) use soft::TapStage;
 pub(crate) use stage::Stage;
+use submission::Submission;
 pub(crate) use taps::{GRADIENT_NOISE, NOISE, TESTS, TILE, Taps};
 use textures::Textures;
 use uniforms::MapView;
@@ -39,7 +47,7 @@ pub(crate) use uniforms::{Eye, LOOKUP_LAYOUTS, TAP_LAYOUTS};
 pub(crate) const SHADERS: [Shader; 3] = [pipelines::DEPTH_SHADER, pipelines::SECOND_SHADER, pipelines::MIDPOINT_SHADER];
 
 use umbrage_core::light_view::{Fit, FitScene, Focus, LightView, Omni, fit};
-use umbrage_core::{Bounds, LightKind, LightKinds};
+use umbrage_core::{Bounds, Frustum, LightKind, LightKinds, glam::DVec3, scene_tree::Sphere};
 
 /// Names of the pictures inside, one a layer.
 pub(crate) const LAYER_NAMES: [&str; 6] = ["map-0", "map-1", "map-2", "map-3", "map-4", "map-5"];
@@ -156,20 +164,26 @@ pub(crate) struct DepthMaps {
     soft: bool,
     pipelines: Pipelines,
     textures: Option<Textures>,
-    scene: FitScene,
+    /// The boxes that this frame's views were fitted to.
+    pub(crate) scene: FitScene,
     pub(crate) views: Vec<LightView>,
     /// What the layers are, `None` for a single view.
     pub(crate) layout: Option<Omni>,
     layers: Vec<Layer>,
+    lists: Lists,
+    /// Keeps what did not change.
+    cache: bool,
+    movers: Movers,
+    submission: Submission,
+    /// The last frame that was prepared was recorded as well.
+    recorded: bool,
     triangles: u64,
 }
 
-/// What one layer draws.
-#[derive(Default)]
-struct Layer {
-    list: DrawList,
-    uniform: MapView,
-}
+/// Most boxes that stand for all casters in a fit, and for all receivers that are seen.
+const MOST_BOXES: usize = 256;
+
+const EVERYWHERE: Sphere = Sphere { center: DVec3::ZERO, radius: f64::INFINITY };
 
 impl DepthMaps {
     fn new(gpu: &Gpu, settings: &Settings, reach_texels: f64) -> Result<Self, Error> {
@@ -191,19 +205,26 @@ impl DepthMaps {
             views: Vec::new(),
             layout: None,
             layers: Vec::new(),
+            lists: Lists::default(),
+            cache: settings.switch("cache"),
+            movers: Movers::default(),
+            submission: Submission::default(),
+            recorded: false,
             triangles: 0,
         })
     }
 
     fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
-        self.scene.casters.clear();
-        self.scene.casters.extend(view.casters.casting_bounds());
-        self.scene.receivers.clear();
-        self.scene.receivers.extend(view.casters.receiving_bounds());
+        let known = self.cache && self.movers.update(view.casters);
+        if !known || !std::mem::take(&mut self.recorded) || self.submission.was_dropped() {
+            self.layers.iter_mut().for_each(Layer::forget);
+        }
+        self.gather(view);
         let (focus, omni, size) = (self.focus, self.omni, self.size);
         let mut to_fit = Fit { focus, omni, size, border_texels: self.border_texels };
         self.views.clear();
         if !view.light.casts || self.scene.casters.is_empty() {
+            self.forget_unseen();
             return Ok(());
         }
         self.layout = fit(&view.light.shape, &view.camera, &self.scene, &to_fit, &mut self.views);
@@ -211,20 +232,49 @@ impl DepthMaps {
             to_fit.border_texels += extent::light_border(&view.light.shape, self);
             self.layout = fit(&view.light.shape, &view.camera, &self.scene, &to_fit, &mut self.views);
         }
-        if self.views.is_empty() {
-            return Ok(());
-        }
-        self.make_room(gpu);
-        let receivers = self.scene.receivers.iter().fold(Bounds::EMPTY, |b, r| b.union(*r));
-        let center = view.light.shape.center();
-        let which =
-            if self.every_caster { Which::Casting } else { Which::Shadowing(casters::Light { center, receivers }) };
-        for light_view in &self.views {
-            let layer = &mut self.layers[light_view.layer as usize];
-            layer.list.fill(gpu, view.casters, which, &light_view.frustum());
-            layer.uniform = MapView::new(light_view, view.casters.origin(), self.linear);
+        self.forget_unseen();
+        if !self.views.is_empty() {
+            self.make_room(gpu);
+            self.choose(gpu, view);
         }
         Ok(())
+    }
+
+    /// Forgets layers without a view.
+    fn forget_unseen(&mut self) {
+        let unseen = (0..).zip(&mut self.layers).filter(|(i, _)| !self.views.iter().any(|view| view.layer == *i));
+        unseen.for_each(|(_, layer)| layer.forget());
+    }
+
+    /// Chooses what the layers draw.
+    fn choose(&mut self, gpu: &Gpu, view: &View<'_>) {
+        let casters = view.casters;
+        let light = casters::Light { center: view.light.shape.center(), receivers: casters.receivers_bounds() };
+        let light = Some(light).filter(|_| !self.every_caster);
+        let frame = Frame { casters, movers: &self.movers, can_store: !self.midpoint };
+        let frame = Some(&frame).filter(|_| self.cache);
+        self.lists.numbers.clear(gpu, casters, self.layers.len() as u32);
+        for light_view in &self.views {
+            let layer = &mut self.layers[light_view.layer as usize];
+            layer.prepare(casters, frame, light_view, light, &mut self.lists);
+            layer.uniform = MapView::new(light_view, casters.origin(), self.linear);
+            if let (Work::Over { .. }, Some(textures)) = (layer.work, &mut self.textures) {
+                textures.make_store(gpu);
+            }
+        }
+    }
+
+    /// The boxes that views are fitted to.
+    fn gather(&mut self, view: &View<'_>) {
+        let FitScene { casters, receivers } = &mut self.scene;
+        casters.clear();
+        view.casters.casting().cut(&EVERYWHERE, MOST_BOXES, casters);
+        receivers.clear();
+        let receiving = view.casters.receiving();
+        match self.focus {
+            Focus::Light => receiving.cut(&EVERYWHERE, MOST_BOXES, receivers),
+            Focus::Visible => receiving.cut(&Frustum::of(&view.camera.clip_from_world()), MOST_BOXES, receivers),
+        }
     }
 
     /// Pipelines, layers and textures for the views.
@@ -234,21 +284,28 @@ impl DepthMaps {
         self.layers.resize_with(self.layers.len().max(count as usize), Layer::default);
         if self.textures.as_ref().is_none_or(|t| t.layers() < count) {
             self.textures = Some(Textures::new(gpu, &self.pipelines, self.size, count, self.midpoint));
+            self.layers.iter_mut().for_each(Layer::forget);
         }
     }
 
     /// Renders the maps; returns the number of draws.
     fn record(&mut self, passes: &mut Passes<'_>, casters: &Casters) -> u32 {
+        self.recorded = true;
         let Some(textures) = &self.textures else { return 0 };
         let (mut draws, mut triangles) = (0, 0);
-        for view in &self.views {
-            let layer = &self.layers[view.layer as usize];
+        let numbers = &self.lists.numbers;
+        let worked = |view: &&LightView| self.layers[view.layer as usize].work != Work::Keep;
+        if self.cache {
+            self.submission.watch(passes.encoder());
+        }
+        numbers.upload(passes);
+        for view in self.views.iter().filter(worked) {
             let i = view.layer as usize;
+            let layer = &self.layers[i];
             passes.upload(&textures.uniforms[i].0, bytemuck::bytes_of(&layer.uniform));
-            layer.list.upload(passes);
-            let rounds = self.pipelines.record(passes, casters, &layer.list, textures, i, self.kind());
-            draws += rounds * layer.list.draws();
-            triangles += u64::from(rounds) * layer.list.triangles(casters);
+            let rounds = self.pipelines.record(passes, casters, (numbers, layer), textures, i, self.kind());
+            draws += rounds * layer.list.draws() + layer.rest.draws();
+            triangles += u64::from(rounds) * layer.list.triangles(casters) + layer.rest.triangles(casters);
         }
         self.triangles = triangles;
         draws
@@ -257,10 +314,16 @@ impl DepthMaps {
     /// Largest coordinate that the vertex shader computes with, metres: what rounding goes by.
     fn largest_coordinate(&self, view: &View<'_>) -> f64 {
         let origin = view.casters.origin();
-        let around = |b: &Bounds| (b.min - origin).abs().max((b.max - origin).abs()).max_element();
+        let casters = view.casters.casting().content();
+        let casters = Bounds { min: casters.min - origin, max: casters.max - origin };
         let center = view.light.shape.center();
         let light = (center.truncate() - origin).abs().max_element() * center.w;
-        self.scene.casters.iter().map(around).fold(light, f64::max)
+        light.max(casters.largest_coordinate())
+    }
+
+    /// Changes whenever this layer of the maps does.
+    pub(crate) fn version(&self, layer: u32) -> u64 {
+        self.layers.get(layer as usize).map_or(0, |layer| layer.version)
     }
 
     /// The texture that is looked up, once there is one.
@@ -281,14 +344,13 @@ impl DepthMaps {
     }
 
     fn stats(&self) -> Stats {
-        let drawn = self.views.iter().map(|v| &self.layers[v.layer as usize].list);
+        let layers = self.views.iter().map(|v| &self.layers[v.layer as usize]);
         Stats {
             draws: 0,
             triangles: self.triangles,
-            casters_drawn: drawn.clone().map(DrawList::drawn).sum(),
-            casters_culled: drawn.map(|l| l.culled).sum(),
-            bytes: self.layers.iter().map(|l| l.list.bytes()).sum::<u64>()
-                + self.textures.as_ref().map_or(0, Textures::bytes),
+            casters_drawn: layers.clone().map(|l| l.list.drawn() + l.rest.drawn()).sum(),
+            casters_culled: layers.map(|l| l.culled).sum(),
+            bytes: self.lists.numbers.bytes() + self.textures.as_ref().map_or(0, Textures::bytes),
         }
     }
 }

@@ -55,6 +55,14 @@ pub(crate) const DEPTH: Param = Param {
     kind: ParamKind::Choice { values: &["projective", "linear"] },
 };
 
+/// Keeping maps.
+pub(crate) const CACHE: Param = Param {
+    name: "cache",
+    help: "Keeps a map while its view stays the same and draws only what moves; see `focus` for views that stay.",
+    unit: "",
+    kind: ParamKind::Switch { default: true },
+};
+
 /// What [`OMNI`] is set to.
 pub(super) fn omni(settings: &Settings) -> Omni {
     match settings.choice("omni") {

@@ -1,8 +1,10 @@
 //! The passes that render a layer of a map.
 
+use super::cache::Work;
+use super::layer::Layer;
 use super::textures::{FORMAT, Textures};
 use super::uniforms::MapView;
-use crate::casters::{CASTERS_WGSL, Casters, DrawList, MATERIALS_WGSL, texture_layout, vertex_layouts};
+use crate::casters::{CASTERS_WGSL, Casters, InstanceNumbers, MATERIALS_WGSL, texture_layout, vertex_layouts};
 use crate::fullscreen::{self, UNIFORM, bind, layout};
 use crate::shader::{FULLSCREEN, MAP_STORAGE, Shader};
 use crate::{gpu::Gpu, passes::Passes};
@@ -147,30 +149,41 @@ impl Pipelines {
         Set { nearest, second }
     }
 
-    /// Renders one layer; returns how often the casters were drawn.
+    /// Renders one layer; returns how often the casters of its list were drawn.
     pub(super) fn record(
         &self,
         passes: &mut Passes<'_>,
         casters: &Casters,
-        list: &DrawList,
+        (numbers, layer): (&InstanceNumbers, &Layer),
         textures: &Textures,
-        layer: usize,
+        i: usize,
         kind: Kind,
     ) -> u32 {
-        let Some(set) = self.set(kind) else { return 0 };
-        let views = &textures.layers[layer];
-        let view_uniform = &textures.uniforms[layer].1;
-        {
-            let mut pass = passes.render("map", &[], clear(&views.first));
+        let Some(set) = self.set(kind).filter(|_| layer.work != Work::Keep) else { return 0 };
+        let views = &textures.layers[i];
+        let view_uniform = &textures.uniforms[i].1;
+        let draw = |passes: &mut Passes<'_>, label, list, attachment| {
+            let mut pass = passes.render(label, &[], attachment);
             pass.set_bind_group(0, view_uniform, &[]);
-            list.draw(&mut pass, casters, false, |masked| &set.nearest[usize::from(masked)]);
+            numbers.draw(&mut pass, casters, list, false, |masked| &set.nearest[usize::from(masked)]);
+        };
+        if let (Work::Over { rest }, Some(store)) = (layer.work, textures.stored(i)) {
+            if rest {
+                draw(passes, "casters at rest", &layer.rest, clear(store));
+            }
+            textures.take_stored(passes.encoder(), i);
+            if layer.list.draws() > 0 {
+                draw(passes, "map", &layer.list, over(&views.first));
+            }
+            return 1;
         }
+        draw(passes, "map", &layer.list, clear(&views.first));
         let (Some(second), Some(pipelines)) = (&views.second, &set.second) else { return 1 };
         {
             let mut pass = passes.render("second surface", &[], clear(&second.second));
             pass.set_bind_group(0, view_uniform, &[]);
             pass.set_bind_group(3, &second.read_first, &[]);
-            list.draw(&mut pass, casters, true, |masked| &pipelines.surface[usize::from(masked)]);
+            numbers.draw(&mut pass, casters, &layer.list, true, |masked| &pipelines.surface[usize::from(masked)]);
         }
         let mut pass = passes.render("midpoint", &[], clear(&second.midpoint));
         pass.set_pipeline(&pipelines.midpoint);
@@ -202,11 +215,17 @@ impl Pipelines {
 
 /// An attachment cleared to "nothing there": depth 0, infinitely far.
 fn clear(view: &wgpu::TextureView) -> Option<wgpu::RenderPassDepthStencilAttachment<'_>> {
-    Some(wgpu::RenderPassDepthStencilAttachment {
-        view,
-        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
-        stencil_ops: None,
-    })
+    attachment(view, wgpu::LoadOp::Clear(0.0))
+}
+
+/// An attachment that keeps what is there.
+fn over(view: &wgpu::TextureView) -> Option<wgpu::RenderPassDepthStencilAttachment<'_>> {
+    attachment(view, wgpu::LoadOp::Load)
+}
+
+fn attachment(view: &wgpu::TextureView, load: wgpu::LoadOp<f32>) -> Option<wgpu::RenderPassDepthStencilAttachment<'_>> {
+    let depth_ops = Some(wgpu::Operations { load, store: wgpu::StoreOp::Store });
+    Some(wgpu::RenderPassDepthStencilAttachment { view, depth_ops, stencil_ops: None })
 }
 
 /// A layout of so many depth textures.

@@ -54,7 +54,7 @@ impl Stage for TapStage {
     }
 
     fn record(&mut self, passes: &mut Passes<'_>, maps: &DepthMaps) -> u32 {
-        if let Some(bounds) = self.bounds.as_ref().filter(|_| self.reads_bounds) {
+        if let Some(bounds) = self.bounds.as_mut().filter(|_| self.reads_bounds) {
             bounds.record(passes, maps);
         }
         0

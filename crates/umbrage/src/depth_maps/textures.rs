@@ -1,7 +1,7 @@
 //! The textures of a light's maps.
 
 use super::pipelines::Pipelines;
-use crate::{fullscreen::target_texture, gpu::Gpu};
+use crate::gpu::Gpu;
 
 /// The format of maps: floats, since reversed depth needs their precision far away.
 pub(super) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
@@ -9,6 +9,8 @@ pub(super) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float
 /// The textures of a light's maps and the buffers that go with each layer.
 pub(crate) struct Textures {
     first: wgpu::Texture,
+    /// Casters at rest, and its layers: made when first needed.
+    store: Option<(wgpu::Texture, Vec<wgpu::TextureView>)>,
     /// Second surface and midpoint, for `faces = midpoint`.
     midpoint: Option<(wgpu::Texture, wgpu::Texture)>,
     /// For each layer the view uniform and its bind group.
@@ -33,15 +35,7 @@ pub(super) struct SecondViews {
 
 impl Textures {
     pub(super) fn new(gpu: &Gpu, pipelines: &Pipelines, size: u32, layers: u32, midpoint: bool) -> Self {
-        let texture = |label| target_texture(gpu, label, (size, size), layers, FORMAT);
-        let layer_view = |texture: &wgpu::Texture, layer| {
-            texture.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(wgpu::TextureViewDimension::D2),
-                base_array_layer: layer,
-                array_layer_count: Some(1),
-                ..Default::default()
-            })
-        };
+        let texture = |label| map_texture(gpu, label, size, layers);
         let first = texture("shadow map");
         let midpoint = midpoint.then(|| (texture("second surface"), texture("midpoint")));
         let views = (0..layers).map(|i| {
@@ -56,7 +50,35 @@ impl Textures {
         });
         let layers = views.collect();
         let uniforms = (0..first.depth_or_array_layers()).map(|_| pipelines.view_uniform(gpu)).collect();
-        Self { first, midpoint, uniforms, layers }
+        Self { first, store: None, midpoint, uniforms, layers }
+    }
+
+    /// Makes the store where it is missing.
+    pub(super) fn make_store(&mut self, gpu: &Gpu) {
+        let first = &self.first;
+        self.store.get_or_insert_with(|| {
+            let texture = map_texture(gpu, "casters at rest", first.width(), first.depth_or_array_layers());
+            let layers = (0..first.depth_or_array_layers()).map(|i| layer_view(&texture, i)).collect();
+            (texture, layers)
+        });
+    }
+
+    /// A layer of the store.
+    pub(super) fn stored(&self, layer: usize) -> Option<&wgpu::TextureView> {
+        self.store.as_ref().and_then(|(_, layers)| layers.get(layer))
+    }
+
+    /// Copies a layer of the store to the map.
+    pub(super) fn take_stored(&self, encoder: &mut wgpu::CommandEncoder, layer: usize) {
+        let Some((store, _)) = &self.store else { return };
+        let of = |texture| wgpu::TexelCopyTextureInfo {
+            texture,
+            mip_level: 0,
+            origin: wgpu::Origin3d { z: layer as u32, ..wgpu::Origin3d::ZERO },
+            aspect: wgpu::TextureAspect::All,
+        };
+        let extent = wgpu::Extent3d { depth_or_array_layers: 1, ..store.size() };
+        encoder.copy_texture_to_texture(of(store), of(&self.first), extent);
     }
 
     pub(super) fn layers(&self) -> u32 {
@@ -69,8 +91,33 @@ impl Textures {
     }
 
     pub(super) fn bytes(&self) -> u64 {
-        let count = if self.midpoint.is_some() { 3 } else { 1 };
+        let count = if self.midpoint.is_some() { 3 } else { 1 } + u64::from(self.store.is_some());
         let texels = u64::from(self.first.width()) * u64::from(self.first.height()) * u64::from(self.layers());
         texels * 4 * count + self.uniforms.iter().map(|(b, _)| b.size()).sum::<u64>()
     }
+}
+
+fn map_texture(gpu: &Gpu, label: &str, size: u32, layers: u32) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: layers },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::COPY_SRC
+            | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
+}
+
+fn layer_view(texture: &wgpu::Texture, layer: u32) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2),
+        base_array_layer: layer,
+        array_layer_count: Some(1),
+        ..Default::default()
+    })
 }

@@ -108,6 +108,8 @@ pub(crate) struct MomentStage {
     uniforms: wgpu::Buffer,
     data: Moments,
     made: Option<Made>,
+    /// By layer: the version of the map that moments were last taken of, and in which range.
+    taken: Vec<(u64, Moments)>,
     bind_group: Option<wgpu::BindGroup>,
 }
 
@@ -135,6 +137,7 @@ impl MomentStage {
             uniforms: gpu.buffer("moments", &[Moments::default()], usage),
             data: Moments::default(),
             made: None,
+            taken: Vec::new(),
             bind_group: None,
         }
     }
@@ -157,6 +160,8 @@ impl Stage for MomentStage {
             let resources = [self.uniforms.as_entire_binding(), wgpu::BindingResource::TextureView(&made.moments)];
             self.bind_group = Some(bind(gpu, "moments", &self.layout, &resources));
             self.made = Some(made);
+            self.taken.clear();
+            self.taken.resize(texture.depth_or_array_layers() as usize, (0, Moments::default()));
         }
         self.data = Moments {
             depth: range::linear_from_stored(view, maps),
@@ -172,7 +177,14 @@ impl Stage for MomentStage {
         let Some(made) = &self.made else { return 0 };
         passes.upload(&self.uniforms, bytemuck::bytes_of(&self.data));
         let mut draws = 0;
-        for pass in maps.views.iter().flat_map(|view| &made.layers[view.layer as usize]) {
+        let (taken, data) = (&mut self.taken, self.data);
+        let mut is_new = |layer: u32| {
+            let now = (maps.version(layer), data);
+            let last = std::mem::replace(&mut taken[layer as usize], now);
+            last.0 != now.0 || bytemuck::bytes_of(&last.1) != bytemuck::bytes_of(&now.1)
+        };
+        let layers = maps.views.iter().map(|view| view.layer).filter(|layer| is_new(*layer));
+        for pass in layers.flat_map(|layer| &made.layers[layer as usize]) {
             let target = fullscreen::attachment(&pass.target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));
             let mut drawn = passes.render(pass.step.label(), &[target], None);
             drawn.set_pipeline(self.pipelines.of(pass.step));

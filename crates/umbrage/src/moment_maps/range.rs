@@ -19,26 +19,23 @@ pub(super) fn linear_from_stored(view: &View<'_>, maps: &DepthMaps) -> [f32; 4] 
         if light_view.paraboloid.is_some() {
             // Its depth is the distance from the light itself, and it sees all around.
             let light = view.light.shape.center().truncate();
-            nearest = view
-                .casters
-                .casting_bounds()
-                .map(|b| light.clamp(b.min, b.max).distance(light))
-                .fold(nearest, f64::min);
-            let corners = view.casters.receiving_bounds().flat_map(|b| b.corners());
+            let distances = maps.scene.casters.iter().map(|b| light.clamp(b.min, b.max).distance(light));
+            nearest = distances.fold(nearest, f64::min);
+            let corners = maps.scene.receivers.iter().flat_map(Bounds::corners);
             farthest = corners.map(|c| c.distance(light)).fold(farthest, f64::max);
             continue;
         }
         let frustum = Frustum::of(&light_view.clip_from_world);
         let ahead = light_view.clip_from_world.row(3);
         let distance = |p: &DVec3| ahead.dot(p.extend(1.0));
-        let mut corners = |bounds: Bounds| {
+        let mut corners = |bounds: &Bounds| {
             points.clear();
-            frustum.clip_box(&bounds, &mut points);
+            frustum.clip_box(bounds, &mut points);
             let distances = points.iter().map(distance);
             distances.fold((f64::INFINITY, 0.0_f64), |(low, high), d| (low.min(d), high.max(d)))
         };
-        nearest = view.casters.casting_bounds().map(|b| corners(b).0).fold(nearest, f64::min);
-        farthest = view.casters.receiving_bounds().map(|b| corners(b).1).fold(farthest, f64::max);
+        nearest = maps.scene.casters.iter().map(|b| corners(b).0).fold(nearest, f64::min);
+        farthest = maps.scene.receivers.iter().map(|b| corners(b).1).fold(farthest, f64::max);
     }
     let nearest = nearest.clamp(near, farthest.max(near));
     // A little more than what rounding may put outside.

@@ -1,6 +1,6 @@
 //! Depth, normals and materials of the visible surfaces; ambient and emitted light at once.
 
-use crate::casters::{CASTERS_WGSL, Casters, DrawList, Instance, MATERIAL_LAYOUT, MATERIALS_WGSL, Which};
+use crate::casters::{CASTERS_WGSL, Casters, DrawList, Instance, InstanceNumbers, MATERIAL_LAYOUT, MATERIALS_WGSL};
 use crate::casters::{texture_layout, vertex_layouts};
 use crate::fullscreen::{UNIFORM, attachment, bind, layout, target_texture};
 use crate::{gpu::Gpu, passes::Passes, shader::PACK_NORMAL, shader::Shader, shader::shader_struct};
@@ -45,6 +45,9 @@ pub(super) struct GBuffer {
     /// Light that leaves the surface; every light adds to it.
     pub(super) radiance_view: wgpu::TextureView,
     pipelines: [wgpu::RenderPipeline; 2],
+    /// Places of the instances that the camera sees.
+    seen: Vec<u32>,
+    numbers: InstanceNumbers,
     list: DrawList,
     uniforms: wgpu::Buffer,
     bind_group: wgpu::BindGroup,
@@ -72,6 +75,8 @@ impl GBuffer {
             color_view: view(&texture("base colour", WIDE)),
             radiance_view: view(&texture("radiance", WIDE)),
             pipelines: ["opaque", "masked"].map(|entry| pipeline(gpu, &view_layout, entry)),
+            seen: Vec::new(),
+            numbers: InstanceNumbers::default(),
             list: DrawList::default(),
             uniforms,
             bind_group,
@@ -87,8 +92,13 @@ impl GBuffer {
         ambient: [f32; 3],
     ) {
         let clip_from_world = camera.clip_from_world() * DMat4::from_translation(casters.origin());
-        self.list.fill(gpu, casters, Which::Visible, &Frustum::of(&camera.clip_from_world()));
-        self.list.upload(passes);
+        let frustum = Frustum::of(&camera.clip_from_world());
+        self.seen.clear();
+        self.seen
+            .extend((0..).zip(casters.placed()).filter(|(_, p)| frustum.may_see(&p.bounds)).map(|(place, _)| place));
+        self.numbers.clear(gpu, casters, 1);
+        self.numbers.list(casters, &self.seen, None, &mut self.list);
+        self.numbers.upload(passes);
         let data = GBufferView {
             clip_from_world: clip_from_world.as_mat4().to_cols_array_2d(),
             eye: (camera.eye - casters.origin()).as_vec3().to_array(),
@@ -105,7 +115,7 @@ impl GBuffer {
         let targets = [&self.normal_view, &self.shading_view, &self.color_view, &self.radiance_view].map(clear);
         let mut pass = passes.render("gbuffer", &targets, Some(depth));
         pass.set_bind_group(0, &self.bind_group, &[]);
-        self.list.draw(&mut pass, casters, true, |masked| &self.pipelines[usize::from(masked)]);
+        self.numbers.draw(&mut pass, casters, &self.list, true, |masked| &self.pipelines[usize::from(masked)]);
     }
 }
 

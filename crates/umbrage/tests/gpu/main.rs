@@ -1,5 +1,6 @@
 //! Tests that draw: they need a graphics adapter, a software one will do.
 
+mod cache;
 mod common;
 mod filters;
 mod golden;

@@ -2,7 +2,9 @@
 //!
 //! Source: Peters and Klein, "Moment Shadow Mapping", 2015.
 
-use crate::depth_maps::{BIAS, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE};
+use crate::depth_maps::{
+    BIAS, CACHE, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
+};
 use crate::moment_maps::{Coding, FORMAT, MIPS, MomentStage, PASS_LAYOUTS, RADIUS, Recipe};
 use crate::params::{Param, ParamKind};
 use crate::shader::{
@@ -71,7 +73,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, RADIUS, BLEEDING, FORMAT, MIPS, FACES, OMNI, FOCUS, BIAS],
+    params: &[SIZE, RADIUS, BLEEDING, FORMAT, MIPS, FACES, OMNI, FOCUS, CACHE, BIAS],
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], PASSES, PASSES_16, LOOKUP, LOOKUP_16],
     readme: include_str!("README.md"),

@@ -3,7 +3,7 @@
 //! Sources: Reeves, Salesin and Cook 1987; ZA 3.2; FE 2.3.1.
 
 use crate::depth_maps::{
-    BIAS, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
+    BIAS, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
 };
 use crate::params::{Param, ParamKind};
 use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, RECEIVERS, Shader};
@@ -46,7 +46,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, KERNEL, TAPS, RADIUS, FACES, OMNI, DEPTH, FOCUS, BIAS],
+    params: &[SIZE, KERNEL, TAPS, RADIUS, FACES, OMNI, DEPTH, FOCUS, CACHE, BIAS],
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], SHADER],
     readme: include_str!("README.md"),

@@ -8,7 +8,7 @@ mod technique;
 mod tiles;
 
 use crate::depth_maps::{
-    BIAS, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
+    BIAS, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
 };
 use crate::params::{Param, ParamKind};
 use crate::shader::{FULLSCREEN, MAP_LOOKUP, RECEIVERS, Shader};
@@ -65,7 +65,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, SOURCE, RADIUS, DEPTH_AWARE, FACES, OMNI, DEPTH, FOCUS, BIAS],
+    params: &[SIZE, SOURCE, RADIUS, DEPTH_AWARE, FACES, OMNI, DEPTH, FOCUS, CACHE, BIAS],
     views: &LAYER_NAMES,
     shaders: &[
         SHADERS[0],

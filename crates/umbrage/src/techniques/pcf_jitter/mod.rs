@@ -3,8 +3,8 @@
 //! Sources: Uralsky, "Efficient Soft-Edged Shadows Using Pixel Shader Branching", 2005; ZA 3.4.
 
 use crate::depth_maps::{
-    BIAS, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, NOISE, OMNI, SHADERS, SIZE, TAP_LAYOUTS, TESTS, TILE,
-    TapStage, Taps,
+    BIAS, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, NOISE, OMNI, SHADERS, SIZE, TAP_LAYOUTS,
+    TESTS, TILE, TapStage, Taps,
 };
 use crate::params::{Param, ParamKind};
 use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_TAPS, MAP_VISIBILITY, RECEIVERS, Shader};
@@ -39,7 +39,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, TAPS, RADIUS, NOISE, TILE, FACES, OMNI, DEPTH, FOCUS, BIAS],
+    params: &[SIZE, TAPS, RADIUS, NOISE, TILE, FACES, OMNI, DEPTH, FOCUS, CACHE, BIAS],
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], SHADER],
     readme: include_str!("README.md"),

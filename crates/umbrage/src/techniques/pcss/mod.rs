@@ -3,8 +3,8 @@
 //! Sources: Fernando, "Percentage-Closer Soft Shadows", 2005; ZA 3.5.
 
 use crate::depth_maps::{
-    BIAS, BOUNDS_SHADER, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE, TAP_LAYOUTS,
-    TapStage, Taps,
+    BIAS, BOUNDS_SHADER, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE,
+    TAP_LAYOUTS, TapStage, Taps,
 };
 use crate::params::{Param, ParamKind};
 use crate::shader::{
@@ -58,7 +58,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, SEARCH, KERNEL, BOUNDS, FACES, OMNI, DEPTH, FOCUS, BIAS],
+    params: &[SIZE, SEARCH, KERNEL, BOUNDS, FACES, OMNI, DEPTH, FOCUS, CACHE, BIAS],
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], BOUNDS_SHADER, SHADER],
     readme: include_str!("README.md"),

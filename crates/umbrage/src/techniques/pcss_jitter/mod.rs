@@ -3,8 +3,8 @@
 //! Sources: ZA 4.4.1 and 4.4.3, and 3.5 (Fernando, "Percentage-Closer Soft Shadows", 2005).
 
 use crate::depth_maps::{
-    BIAS, BOUNDS_SHADER, DEPTH, FACES, FOCUS, GRADIENT_NOISE, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE,
-    TAP_LAYOUTS, TESTS, TILE, TapStage, Taps,
+    BIAS, BOUNDS_SHADER, CACHE, DEPTH, FACES, FOCUS, GRADIENT_NOISE, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS,
+    SIZE, TAP_LAYOUTS, TESTS, TILE, TapStage, Taps,
 };
 use crate::params::{Param, ParamKind};
 use crate::shader::{
@@ -52,7 +52,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, SEARCH, TAPS, GRADIENT_NOISE, TILE, FACES, OMNI, DEPTH, FOCUS, BIAS],
+    params: &[SIZE, SEARCH, TAPS, GRADIENT_NOISE, TILE, FACES, OMNI, DEPTH, FOCUS, CACHE, BIAS],
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], BOUNDS_SHADER, SHADER],
     readme: include_str!("README.md"),

@@ -3,7 +3,7 @@
 //! Sources: Williams 1978; ZA 2.3; SG "Shadow Mapping", "Second Depth Shadow Maps" (midpoint), "Extensions" (focus).
 
 use crate::depth_maps::{
-    BIAS, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
+    BIAS, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
 };
 use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, RECEIVERS, Shader};
 use crate::technique::TechniqueInfo;
@@ -23,7 +23,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: true,
-    params: &[SIZE, FACES, OMNI, DEPTH, FOCUS, BIAS],
+    params: &[SIZE, FACES, OMNI, DEPTH, FOCUS, CACHE, BIAS],
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], SHADER],
     readme: include_str!("README.md"),

@@ -53,7 +53,7 @@ impl Selection {
         let casters = view.casters;
         let situation = Situation::new(view, options, clamps);
         let (light, camera) = (situation.light, &view.camera);
-        if !view.light.casts || casters.tree().is_empty() {
+        if !view.light.casts || casters.casting().is_empty() {
             return Ok(light);
         }
         let edges = casters.edges(gpu)?;
@@ -92,7 +92,7 @@ impl Selection {
             let reach = if s.options.is_finite() { shadow_hull::reach(s.view.light) } else { None };
             let lit = reach.map_or(receivers, |reach| common(&receivers, &reach));
             if let Some(hull) = shadow_hull(&s.view.camera, &lit, s.light) {
-                casters.tree().query(&hull, &mut self.found);
+                casters.casting().query(&hull, &mut self.found);
             }
             self.found.sort_unstable();
         } else {

@@ -124,7 +124,7 @@ impl Volume {
             let what = "parallel projections on this adapter, which lacks DEPTH_CLIP_CONTROL".into();
             return Err(Error::Unsupported { technique: super::INFO.id.into(), what });
         }
-        self.casting = view.casters.tree().len() as u32;
+        self.casting = view.casters.casting().len() as u32;
         self.selection.choose(gpu, view, &self.options, self.clamps)
     }
 
