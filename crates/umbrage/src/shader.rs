@@ -41,7 +41,12 @@ pub const MOMENTS_MEAN: &str = include_str!("wgsl/moments_mean.wgsl");
 /// `wgsl/moments_passes.wgsl`: from depth to filtered moments. After a technique's `moments_of`.
 pub const MOMENTS_PASSES: &str = include_str!("wgsl/moments_passes.wgsl");
 /// `wgsl/moments_lookup.wgsl`: group 2, filtered moments. After [`MAP_LOOKUP`] and [`MOMENTS_DEPTH`].
-pub const MOMENTS_LOOKUP: &str = include_str!("wgsl/moments_lookup.wgsl");
+pub const MOMENTS_LOOKUP: &str =
+    concat!(include_str!("wgsl/moments_share.wgsl"), include_str!("wgsl/moments_lookup.wgsl"));
+/// `wgsl/moments_packed.wgsl`: moments of every width beside each other, for filters that follow the light's size. After
+/// [`SOFT_TAPS`] and [`MOMENTS_DEPTH`].
+pub const MOMENTS_PACKED: &str =
+    concat!(include_str!("wgsl/moments_share.wgsl"), include_str!("wgsl/moments_packed.wgsl"));
 
 /// One shader: plain WGSL modules, later ones using names of earlier ones.
 #[derive(Clone, Copy, Debug)]

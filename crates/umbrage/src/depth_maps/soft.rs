@@ -15,10 +15,13 @@ pub(crate) struct TapStage {
     /// Taps fill the light's shape, else always a disc.
     follows_light: bool,
     layout: wgpu::BindGroupLayout,
-    bind_group: Option<(wgpu::Buffer, wgpu::BindGroup)>,
+    bind_group: Option<wgpu::BindGroup>,
 }
 
 impl TapStage {
+    /// What a filter that follows the light binds: taps and bounds.
+    pub(crate) const LIGHT_BINDINGS: [wgpu::BindingType; 2] = [STORAGE, BoundsPyramid::BINDING];
+
     /// For a filter of one width all around.
     pub(crate) fn disc(gpu: &Gpu, taps: Taps) -> Self {
         let layout = layout(gpu, "taps", wgpu::ShaderStages::FRAGMENT, &[STORAGE]);
@@ -27,9 +30,23 @@ impl TapStage {
 
     /// For a filter that follows the light.
     pub(crate) fn light(gpu: &Gpu, taps: Taps, reads_bounds: bool) -> Self {
-        let layout = layout(gpu, "taps and bounds", wgpu::ShaderStages::FRAGMENT, &[STORAGE, BoundsPyramid::BINDING]);
+        let layout = layout(gpu, "taps and bounds", wgpu::ShaderStages::FRAGMENT, &Self::LIGHT_BINDINGS);
         let bounds = Some(BoundsPyramid::new(gpu));
         Self { taps, bounds, reads_bounds, follows_light: true, layout, bind_group: None }
+    }
+
+    /// Makes or keeps the tables for this frame; true where one is new.
+    pub(crate) fn prepare_tables(&mut self, gpu: &Gpu, view: &View<'_>, maps: &DepthMaps) -> bool {
+        let Some(texture) = maps.result() else { return false };
+        let shape = if self.follows_light { Shape::of(&view.light.shape) } else { Shape::DISC };
+        let has_new_bounds = self.bounds.as_mut().is_some_and(|b| b.prepare(gpu, texture));
+        self.taps.prepare(gpu, shape, view.textures) || has_new_bounds
+    }
+
+    /// The tables, in the order of the layout.
+    pub(crate) fn resources(&self) -> Vec<wgpu::BindingResource<'_>> {
+        let bounds = self.bounds.as_ref().and_then(BoundsPyramid::buffer);
+        self.taps.buffer().into_iter().chain(bounds).map(wgpu::Buffer::as_entire_binding).collect()
     }
 }
 
@@ -39,16 +56,8 @@ impl Stage for TapStage {
     }
 
     fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &DepthMaps) -> Result<(), Error> {
-        let Some(texture) = maps.result() else { return Ok(()) };
-        let shape = if self.follows_light { Shape::of(&view.light.shape) } else { Shape::DISC };
-        let is_new = self.bounds.as_mut().is_some_and(|b| b.prepare(gpu, texture));
-        let buffer = self.taps.buffer(gpu, shape, view.textures);
-        if is_new || self.bind_group.as_ref().is_none_or(|(b, _)| b != buffer) {
-            let mut resources = vec![buffer.as_entire_binding()];
-            let pyramid = self.bounds.as_ref().and_then(BoundsPyramid::buffer);
-            resources.extend(pyramid.map(wgpu::Buffer::as_entire_binding));
-            let bind_group = bind(gpu, "taps", &self.layout, &resources);
-            self.bind_group = Some((buffer.clone(), bind_group));
+        if self.prepare_tables(gpu, view, maps) {
+            self.bind_group = Some(bind(gpu, "taps", &self.layout, &self.resources()));
         }
         Ok(())
     }
@@ -61,7 +70,7 @@ impl Stage for TapStage {
     }
 
     fn bind_group(&self) -> Option<&wgpu::BindGroup> {
-        self.bind_group.as_ref().map(|(_, group)| group)
+        self.bind_group.as_ref()
     }
 
     fn bytes(&self) -> u64 {

@@ -72,11 +72,17 @@ impl Taps {
         Self { pattern: None, tile: 1, search: search * search, filter: filter * filter, made: None }
     }
 
-    /// The table for `shape`, made anew where that is another than before. `textures` are the scene's.
-    pub(crate) fn buffer(&mut self, gpu: &Gpu, shape: Shape, textures: &[Texture]) -> &wgpu::Buffer {
-        let known = self.made.take().filter(|(s, _)| *s == shape);
-        let made = known.unwrap_or_else(|| (shape, self.make(gpu, shape, textures)));
-        &self.made.insert(made).1
+    /// Makes the table for `shape` where it is another than before, and then returns true. `textures` are the scene's.
+    pub(crate) fn prepare(&mut self, gpu: &Gpu, shape: Shape, textures: &[Texture]) -> bool {
+        if self.made.as_ref().is_some_and(|(s, _)| *s == shape) {
+            return false;
+        }
+        self.made = Some((shape, self.make(gpu, shape, textures)));
+        true
+    }
+
+    pub(crate) fn buffer(&self) -> Option<&wgpu::Buffer> {
+        self.made.as_ref().map(|(_, buffer)| buffer)
     }
 
     pub(crate) fn bytes(&self) -> u64 {

@@ -5,6 +5,31 @@ use super::pipelines::{Pipelines, Step};
 use crate::fullscreen::target_texture;
 use crate::gpu::Gpu;
 
+/// Levels besides the finest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Levels {
+    None,
+    /// Mip levels, for pixels that cover many texels.
+    Mips,
+    /// All in one, for look-ups at a level of each pixel's own, see `wgsl/moments_packed.wgsl`.
+    Packed,
+}
+
+/// What fills a layer of moments.
+pub(super) struct Layer {
+    pub(super) passes: Vec<Pass>,
+    /// Then puts levels where they belong.
+    pub(super) copies: Vec<Copy>,
+}
+
+/// A level that has been made, to its place among packed ones.
+pub(super) struct Copy {
+    pub(super) from: wgpu::Texture,
+    pub(super) level: u32,
+    pub(super) to: wgpu::Texture,
+    pub(super) origin: wgpu::Origin3d,
+}
+
 /// One full-screen pass.
 pub(super) struct Pass {
     pub(super) step: Step,
@@ -16,10 +41,13 @@ pub(super) struct Pass {
 pub(super) struct Made {
     /// The maps.
     pub(super) maps: wgpu::Texture,
-    /// The moments, an array with mip levels.
+    /// The moments, an array.
     pub(super) moments: wgpu::TextureView,
-    /// For each layer its passes.
-    pub(super) layers: Vec<Vec<Pass>>,
+    /// Texels across the finest level.
+    pub(super) side: u32,
+    /// Packed levels, the finest included.
+    pub(super) packed: u32,
+    pub(super) layers: Vec<Layer>,
     pub(super) bytes: u64,
 }
 
@@ -38,6 +66,8 @@ struct Workshop<'a> {
     chain: Vec<wgpu::Texture>,
     /// For what is blurred across, of the moments' size.
     across: Option<wgpu::Texture>,
+    /// Levels after the finest, on their way to be packed.
+    coarse: Option<wgpu::Texture>,
     moments: &'a wgpu::Texture,
 }
 
@@ -48,35 +78,32 @@ impl Made {
         uniforms: &wgpu::Buffer,
         maps: &wgpu::Texture,
         blur: &Blur,
-        mips: bool,
+        levels: Levels,
     ) -> Self {
         let format = pipelines.format;
+        let views = maps.depth_or_array_layers();
         let side = |level: u32| maps.width().div_ceil(1 << level);
         let scratch = |level| target_texture(gpu, "reduced moments", (side(level), side(level)), 1, format);
         let size = side(blur.level);
-        let moments = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("moments"),
-            size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: maps.depth_or_array_layers() },
-            mip_level_count: if mips { (size / LEAST_SIZE).checked_ilog2().unwrap_or(0) + 1 } else { 1 },
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        });
+        let all = (size / LEAST_SIZE).checked_ilog2().unwrap_or(0) + 1;
+        let packed = if levels == Levels::Packed { all } else { 1 };
+        let mips = if levels == Levels::Mips { all } else { 1 };
+        // Two views share a layer for their coarser levels.
+        let moments = levels_texture(gpu, format, size, views + if packed > 1 { views.div_ceil(2) } else { 0 }, mips);
         let chain: Vec<_> = (AT_ONCE..blur.level).map(scratch).collect();
         let across = blur.has_passes().then(|| scratch(blur.level));
-        let bytes = chain.iter().chain(&across).chain([&moments]).map(bytes_of).sum();
-        let work = Workshop { gpu, pipelines, uniforms, maps, chain, across, moments: &moments };
-        let layers = (0..maps.depth_or_array_layers()).map(|layer| work.passes(layer)).collect();
+        let coarse = (packed > 1).then(|| levels_texture(gpu, format, size / 2, 1, packed - 1));
+        let bytes = chain.iter().chain(&across).chain(&coarse).chain([&moments]).map(bytes_of).sum();
+        let work = Workshop { gpu, pipelines, uniforms, maps, chain, across, coarse, moments: &moments };
+        let layers = (0..views).map(|layer| work.layer(layer)).collect();
         let whole =
             wgpu::TextureViewDescriptor { dimension: Some(wgpu::TextureViewDimension::D2Array), ..Default::default() };
-        Self { maps: maps.clone(), moments: moments.create_view(&whole), layers, bytes }
+        Self { maps: maps.clone(), moments: moments.create_view(&whole), side: size, packed, layers, bytes }
     }
 }
 
 impl Workshop<'_> {
-    fn passes(&self, layer: u32) -> Vec<Pass> {
+    fn layer(&self, layer: u32) -> Layer {
         let mut passes = Vec::new();
         let mut add = |step, from: &wgpu::TextureView, to: &wgpu::TextureView| {
             let reads = self.pipelines.bind(self.gpu, step, self.uniforms, from);
@@ -93,11 +120,61 @@ impl Workshop<'_> {
             add(Step::BlurAcross, &base, &across);
             add(Step::BlurDown, &across, &base);
         }
-        for level in 1..self.moments.mip_level_count() {
-            add(Step::Mip, &view(self.moments, layer, level - 1), &view(self.moments, layer, level));
+        let mips = (1..self.moments.mip_level_count()).map(|level| view(self.moments, layer, level));
+        let coarse = self.coarse.iter().flat_map(|t| (0..t.mip_level_count()).map(|level| view(t, 0, level)));
+        let mut from = base;
+        for to in mips.chain(coarse) {
+            add(Step::Mip, &from, &to);
+            from = to;
         }
-        passes
+        Layer { passes, copies: self.copies(layer) }
     }
+
+    /// Where levels go: see `wgsl/moments_packed.wgsl`.
+    fn copies(&self, layer: u32) -> Vec<Copy> {
+        let (side, views) = (self.moments.width(), self.maps.depth_or_array_layers());
+        let copy = |from: &wgpu::Texture, level: u32| Copy {
+            from: from.clone(),
+            level,
+            to: self.moments.clone(),
+            origin: wgpu::Origin3d { x: (layer % 2) * (side / 2), y: side - (side >> level), z: views + layer / 2 },
+        };
+        self.coarse.iter().flat_map(|t| (0..t.mip_level_count()).map(move |level| copy(t, level))).collect()
+    }
+}
+
+impl Copy {
+    pub(super) fn record(&self, encoder: &mut wgpu::CommandEncoder) {
+        let copied = |texture, mip_level, origin| wgpu::TexelCopyTextureInfo {
+            texture,
+            mip_level,
+            origin,
+            aspect: wgpu::TextureAspect::All,
+        };
+        let side = (self.from.width() >> self.level).max(1);
+        encoder.copy_texture_to_texture(
+            copied(&self.from, self.level, wgpu::Origin3d::ZERO),
+            copied(&self.to, 0, self.origin),
+            wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 1 },
+        );
+    }
+}
+
+/// An array of moments with so many mip levels.
+fn levels_texture(gpu: &Gpu, format: wgpu::TextureFormat, side: u32, layers: u32, levels: u32) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("moments"),
+        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: layers },
+        mip_level_count: levels,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::COPY_SRC
+            | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
 }
 
 fn view(texture: &wgpu::Texture, layer: u32, level: u32) -> wgpu::TextureView {

@@ -8,12 +8,13 @@ mod made;
 mod pipelines;
 mod range;
 
-use crate::depth_maps::{DepthMaps, Stage};
+use crate::depth_maps::{DepthMaps, Stage, TapStage, Taps};
 use crate::fullscreen::{self, FLOATS, UNIFORM, bind, layout};
 use crate::params::{Param, ParamKind, Settings};
 use crate::shader::{HostLayout, Shader, shader_struct};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
 use blur::Blur;
+pub(crate) use made::Levels;
 use made::Made;
 use pipelines::Pipelines;
 
@@ -48,9 +49,9 @@ shader_struct! {
         taps: [f32; 3],
         scale: f32,
         variance: f32,
-        pad_a: f32,
-        pad_b: f32,
-        pad_c: f32,
+        side: u32,
+        levels: u32,
+        views: u32,
     }
 }
 
@@ -102,7 +103,9 @@ impl Recipe {
 /// The stage that turns maps into moments.
 pub(crate) struct MomentStage {
     blur: Blur,
-    mips: bool,
+    levels: Levels,
+    /// For a filter that follows the light.
+    taps: Option<TapStage>,
     pipelines: Pipelines,
     layout: wgpu::BindGroupLayout,
     uniforms: wgpu::Buffer,
@@ -116,24 +119,32 @@ pub(crate) struct MomentStage {
 impl MomentStage {
     /// With the filter of `size`, `radius` and `mips` of the settings.
     pub(crate) fn new(gpu: &Gpu, settings: &Settings, recipe: &Recipe) -> Self {
-        let size = settings.int("size").clamp(1, i64::from(u32::MAX)) as u32;
-        Self::with_radius(gpu, recipe, settings.float("radius"), size, settings.switch("mips"))
+        let levels = if settings.switch("mips") { Levels::Mips } else { Levels::None };
+        Self::make(gpu, settings, recipe, levels, None)
     }
 
-    /// With a filter of this radius in texels of maps of `size`.
-    pub(crate) fn with_radius(gpu: &Gpu, recipe: &Recipe, radius: f64, size: u32, mips: bool) -> Self {
-        let blur = Blur::new(radius, size);
+    /// With filters that follow the light, none narrower than `radius`. Their look-up finds taps and bounds before the moments, see
+    /// `wgsl/soft_taps.wgsl` and `wgsl/moments_packed.wgsl`.
+    pub(crate) fn soft(gpu: &Gpu, settings: &Settings, recipe: &Recipe, taps: Taps) -> Self {
+        Self::make(gpu, settings, recipe, Levels::Packed, Some(TapStage::light(gpu, taps, true)))
+    }
+
+    fn make(gpu: &Gpu, settings: &Settings, recipe: &Recipe, levels: Levels, taps: Option<TapStage>) -> Self {
+        let size = settings.int("size").clamp(1, i64::from(u32::MAX)) as u32;
+        let blur = Blur::new(settings.float("radius"), size);
         let moments = wgpu::BindingType::Texture {
             sample_type: recipe.sample_type(),
             view_dimension: wgpu::TextureViewDimension::D2Array,
             multisampled: false,
         };
+        let tables: &[_] = if taps.is_some() { &TapStage::LIGHT_BINDINGS } else { &[] };
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         Self {
             blur,
-            mips,
+            levels,
+            taps,
             pipelines: Pipelines::new(gpu, recipe, &blur),
-            layout: layout(gpu, "moments", wgpu::ShaderStages::FRAGMENT, &[UNIFORM, moments]),
+            layout: layout(gpu, "moments", wgpu::ShaderStages::FRAGMENT, &[tables, &[UNIFORM, moments]].concat()),
             uniforms: gpu.buffer("moments", &[Moments::default()], usage),
             data: Moments::default(),
             made: None,
@@ -155,20 +166,31 @@ impl Stage for MomentStage {
 
     fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &DepthMaps) -> Result<(), Error> {
         let Some(texture) = maps.result() else { return Ok(()) };
+        let mut is_new = false;
+        if let Some(taps) = &mut self.taps {
+            is_new = taps.prepare_tables(gpu, view, maps);
+        }
         if self.made.as_ref().is_none_or(|m| m.maps != *texture) {
-            let made = Made::new(gpu, &self.pipelines, &self.uniforms, texture, &self.blur, self.mips);
-            let resources = [self.uniforms.as_entire_binding(), wgpu::BindingResource::TextureView(&made.moments)];
-            self.bind_group = Some(bind(gpu, "moments", &self.layout, &resources));
-            self.made = Some(made);
+            self.made = Some(Made::new(gpu, &self.pipelines, &self.uniforms, texture, &self.blur, self.levels));
             self.taken.clear();
             self.taken.resize(texture.depth_or_array_layers() as usize, (0, Moments::default()));
+            is_new = true;
+        }
+        let Some(made) = &self.made else { return Ok(()) };
+        if is_new {
+            let mut resources = self.taps.as_ref().map_or_else(Vec::new, TapStage::resources);
+            resources.push(self.uniforms.as_entire_binding());
+            resources.push(wgpu::BindingResource::TextureView(&made.moments));
+            self.bind_group = Some(bind(gpu, "moments", &self.layout, &resources));
         }
         self.data = Moments {
             depth: range::linear_from_stored(view, maps),
             taps: self.blur.taps.map(|w| w as f32),
             scale: (1_u32 << self.blur.level) as f32,
             variance: self.blur.variance as f32,
-            ..Moments::default()
+            side: made.side,
+            levels: made.packed,
+            views: made.layers.len() as u32,
         };
         Ok(())
     }
@@ -176,7 +198,7 @@ impl Stage for MomentStage {
     fn record(&mut self, passes: &mut Passes<'_>, maps: &DepthMaps) -> u32 {
         let Some(made) = &self.made else { return 0 };
         passes.upload(&self.uniforms, bytemuck::bytes_of(&self.data));
-        let mut draws = 0;
+        let mut draws = self.taps.as_mut().map_or(0, |taps| taps.record(passes, maps));
         let (taken, data) = (&mut self.taken, self.data);
         let mut is_new = |layer: u32| {
             let now = (maps.version(layer), data);
@@ -184,13 +206,16 @@ impl Stage for MomentStage {
             last.0 != now.0 || bytemuck::bytes_of(&last.1) != bytemuck::bytes_of(&now.1)
         };
         let layers = maps.views.iter().map(|view| view.layer).filter(|layer| is_new(*layer));
-        for pass in layers.flat_map(|layer| &made.layers[layer as usize]) {
-            let target = fullscreen::attachment(&pass.target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));
-            let mut drawn = passes.render(pass.step.label(), &[target], None);
-            drawn.set_pipeline(self.pipelines.of(pass.step));
-            drawn.set_bind_group(0, &pass.reads, &[]);
-            drawn.draw(0..3, 0..1);
-            draws += 1;
+        for layer in layers.map(|layer| &made.layers[layer as usize]) {
+            for pass in &layer.passes {
+                let target = fullscreen::attachment(&pass.target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));
+                let mut drawn = passes.render(pass.step.label(), &[target], None);
+                drawn.set_pipeline(self.pipelines.of(pass.step));
+                drawn.set_bind_group(0, &pass.reads, &[]);
+                drawn.draw(0..3, 0..1);
+                draws += 1;
+            }
+            layer.copies.iter().for_each(|copy| copy.record(passes.encoder()));
         }
         draws
     }
@@ -200,6 +225,7 @@ impl Stage for MomentStage {
     }
 
     fn bytes(&self) -> u64 {
-        self.uniforms.size() + self.made.as_ref().map_or(0, |m| m.bytes)
+        let tables = self.taps.as_ref().map_or(0, Stage::bytes);
+        self.uniforms.size() + tables + self.made.as_ref().map_or(0, |m| m.bytes)
     }
 }

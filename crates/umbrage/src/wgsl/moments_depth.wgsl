@@ -10,9 +10,10 @@ struct Moments {
     scale: f32,
     // Of the filter along each axis, in texels of the map, squared.
     variance: f32,
-    pad_a: f32,
-    pad_b: f32,
-    pad_c: f32,
+    // Of packed levels: texels across the finest, how many there are, and views in all.
+    side: u32,
+    levels: u32,
+    views: u32,
 }
 
 fn linear_depth(m: Moments, stored: f32) -> f32 {
@@ -23,4 +24,10 @@ fn linear_depth(m: Moments, stored: f32) -> f32 {
 fn linear_depth_change(m: Moments, stored: f32) -> f32 {
     let below = max(m.depth.z + m.depth.w * stored, 1e-18);
     return (m.depth.y * m.depth.z - m.depth.x * m.depth.w) / (below * below);
+}
+
+// The other way round.
+fn stored_depth(m: Moments, depth: f32) -> f32 {
+    let below = m.depth.y - m.depth.w * depth;
+    return (m.depth.z * depth - m.depth.x) / select(below, -1e-30, below == 0.0);
 }

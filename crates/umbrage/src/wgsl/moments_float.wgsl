@@ -2,12 +2,12 @@
 
 alias MomentTexture = texture_2d<f32>;
 alias MomentArray = texture_2d_array<f32>;
-alias Stored = vec4f;
+alias StoredMoments = vec4f;
 
-fn to_stored(m: vec4f) -> Stored {
+fn to_stored(m: vec4f) -> StoredMoments {
     return m;
 }
 
-fn from_stored(stored: Stored) -> vec4f {
+fn from_stored(stored: StoredMoments) -> vec4f {
     return stored;
 }

@@ -16,7 +16,7 @@ fn moments_at_texel(texel: vec2i) -> vec4f {
 
 // Mean moments of STEP × STEP texels.
 @fragment
-fn take(@builtin(position) at: vec4f) -> @location(0) Stored {
+fn take(@builtin(position) at: vec4f) -> @location(0) StoredMoments {
     let first = vec2i(at.xy) * STEP;
     let count = STEP * STEP;
     var top = moments_at_texel(first);
@@ -32,7 +32,7 @@ fn take(@builtin(position) at: vec4f) -> @location(0) Stored {
 
 // Mean moments of the 3 × 3 texels around each, weighted.
 @fragment
-fn take_around(@builtin(position) at: vec4f) -> @location(0) Stored {
+fn take_around(@builtin(position) at: vec4f) -> @location(0) StoredMoments {
     let middle = vec2i(at.xy);
     var top = moments_at_texel(middle);
     for (var i = 0; i < 9; i++) {
@@ -54,7 +54,7 @@ fn finer_at(texel: vec2i) -> vec4f {
 
 // Mean of 2 × 2.
 @fragment
-fn halve(@builtin(position) at: vec4f) -> @location(0) Stored {
+fn halve(@builtin(position) at: vec4f) -> @location(0) StoredMoments {
     let first = vec2i(at.xy) * 2;
     let a = finer_at(first);
     let b = finer_at(first + vec2i(1, 0));
@@ -67,7 +67,7 @@ fn halve(@builtin(position) at: vec4f) -> @location(0) Stored {
 
 // Five binomial taps along an axis.
 @fragment
-fn blur(@builtin(position) at: vec4f) -> @location(0) Stored {
+fn blur(@builtin(position) at: vec4f) -> @location(0) StoredMoments {
     let middle = vec2i(at.xy);
     let step = select(vec2i(1, 0), vec2i(0, 1), DOWN);
     let a = finer_at(middle - 2 * step);

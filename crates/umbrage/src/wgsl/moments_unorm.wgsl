@@ -3,12 +3,12 @@
 
 alias MomentTexture = texture_2d<u32>;
 alias MomentArray = texture_2d_array<u32>;
-alias Stored = vec4u;
+alias StoredMoments = vec4u;
 
-fn to_stored(m: vec4f) -> Stored {
+fn to_stored(m: vec4f) -> StoredMoments {
     return vec4u(round(clamp(packed(m), vec4f(0.0), vec4f(1.0)) * 65535.0));
 }
 
-fn from_stored(stored: Stored) -> vec4f {
+fn from_stored(stored: StoredMoments) -> vec4f {
     return unpacked(vec4f(stored) / 65535.0);
 }
