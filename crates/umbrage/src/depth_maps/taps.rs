@@ -67,6 +67,11 @@ impl Taps {
         Self { pattern, tile: settings.int("tile") as u32, search, filter, made: None }
     }
 
+    /// Evenly spread, the same for all pixels.
+    pub(crate) fn even(search: u32, filter: u32) -> Self {
+        Self { pattern: Some(Pattern::Fixed), tile: 1, search, filter, made: None }
+    }
+
     /// Grids of so many taps a side, the same for all pixels.
     pub(crate) fn grids(search: u32, filter: u32) -> Self {
         Self { pattern: None, tile: 1, search: search * search, filter: filter * filter, made: None }

@@ -64,9 +64,9 @@ pub(super) const LOOKUP_16: Shader = Shader {
     layouts: TAP_LAYOUTS,
 };
 
-/// Taps a side of the grids that look for blockers and that filter. What lies between them is in the moments.
-const SEARCH_SIDE: u32 = 4;
-const FILTER_SIDE: u32 = 4;
+/// Taps that look for blockers, and that filter. What lies between these is in the moments.
+const SEARCH: u32 = 24;
+const FILTER: u32 = 20;
 
 pub(super) fn make(gpu: &Gpu, settings: &Settings) -> Result<MapTechnique, Error> {
     let half = settings.choice("format") == "16";
@@ -74,14 +74,12 @@ pub(super) fn make(gpu: &Gpu, settings: &Settings) -> Result<MapTechnique, Error
         if half { (PASSES_16, LOOKUP_16, Coding::Unorm) } else { (PASSES, LOOKUP, Coding::Single) };
     let growth = ("GROWTH", growth(settings, if half { 5.54 } else { 42.0 }));
     let recipe = Recipe { passes, channels: 4, coding, constants: vec![growth] };
-    let stage = MomentStage::soft(gpu, settings, &recipe, Taps::grids(SEARCH_SIDE, FILTER_SIDE));
+    let stage = MomentStage::soft(gpu, settings, &recipe, Taps::even(SEARCH, FILTER));
     let reach = stage.reach();
     let constants = [
         growth,
-        ("SEARCH", f64::from(SEARCH_SIDE * SEARCH_SIDE)),
-        ("FILTER", f64::from(FILTER_SIDE * FILTER_SIDE)),
-        ("SEARCH_SIDE", f64::from(SEARCH_SIDE)),
-        ("FILTER_SIDE", f64::from(FILTER_SIDE)),
+        ("SEARCH", f64::from(SEARCH)),
+        ("FILTER", f64::from(FILTER)),
         ("BLEEDING", settings.float("bleeding")),
         ("LEAST_VARIANCE", if half { 2e-3 } else { 1e-6 }),
         ("LEAST_DEPTH_VARIANCE", if half { 3e-5 } else { 1e-7 }),

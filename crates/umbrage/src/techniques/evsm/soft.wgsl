@@ -1,119 +1,95 @@
-// Exponential variance shadow maps whose filter follows the light: the search and the filter of `pcss`, of a few taps that each see all
-// that lies between them and their neighbours.
+// Exponential variance shadow maps whose filter follows the light. Blockers are looked for as `pcss` does. The filter's taps are few: each
+// sees all that lies between it and its neighbours, with the receiver's plane continued to its own place.
 
-// Taps a side of the two grids.
-override SEARCH_SIDE: f32 = 4.0;
-override FILTER_SIDE: f32 = 4.0;
 // Texels of a level over the distance between taps.
-override COARSE: f32 = 1.4;
-
-// Share that is not worth counting.
-const LEAST_SHARE: f32 = 1e-3;
+const COARSE: f32 = 1.2;
+// How far the receiver's plane reaches within a tap, texels of the level.
+const SPREAD: f32 = 0.7;
+// Reach of what surely hides nothing, and of what surely hides a point of the light, over that of the point. The reach of what a tap
+// sees is an estimate, so that there is some way between the two.
+const LOOSE: f32 = 0.7;
+const TIGHT: f32 = 0.95;
 
 // The receiver's plane.
 struct Plane {
     slope: vec2f,
     bias: f32,
+    // How much linear depth changes along it per texel, at most.
+    change: f32,
 }
 
-// Which share of a tap is in the way of the light, and its reach.
+// What is in the way of the light where a tap looks: which share of that it is, and its reach.
 struct Cover {
     share: f32,
     reach: f32,
 }
 
-fn cover_near(point: MapPoint, kernel: LightKernel, plane: Plane, offset: vec2f, level: u32) -> Cover {
-    let found = moments_near(point, offset, level);
-    let m = found.moments;
-    let receiver = linear_depth(moments, max(depth_along(point, plane.slope, found.offset) + plane.bias, 1e-30));
-    let share = 1.0 - without_bleeding(share_of(m, receiver));
-    // Receiver and blocker, two depths, have this mean.
-    let depth = max(receiver - max(receiver - m.z, 0.0) / max(share, LEAST_SHARE), 0.0);
-    return Cover(share, reach_of(point, kernel, found.offset, stored_depth(moments, depth)));
+fn plane_of(point: MapPoint) -> Plane {
+    let slope = map_slope(point);
+    let change = (abs(slope.x) + abs(slope.y)) * abs(linear_depth_change(moments, point.depth));
+    return Plane(slope, map_bias(point, slope, CREASE), change);
 }
 
-// How taps see a light at some reach.
-struct Grid {
-    // Of each tap's level, a share of 1 before it is the next.
+fn cover_near(point: MapPoint, kernel: LightKernel, plane: Plane, offset: vec2f, level: u32) -> Cover {
+    let found = moments_near(point, offset, level);
+    let stored = max(depth_along(point, plane.slope, found.offset) + plane.bias, 1e-30);
+    let receiver = linear_depth(moments, stored);
+    // What slopes towards the light within the tap is no blocker: steep exponentials would take it for one.
+    let nearest = receiver - plane.change * moments.scale * f32(1u << level) * SPREAD;
+    let lit = min(depth_share(found.moments, receiver), warped_share(found.moments, nearest));
+    // A receiver and a blocker, two depths, have the mean that was found.
+    let depth = max(receiver - max(receiver - found.moments.z, 0.0) / max(1.0 - lit, 1e-6), 0.0);
+    return Cover(1.0 - without_bleeding(lit), reach_of(point, kernel, found.offset, stored_depth(moments, depth)));
+}
+
+// How taps see the light at some reach.
+struct Filter {
+    // Of each tap's level, and a share of 1 before it is the next.
     level: f32,
     // Shrinks the places of taps, so that with what each of them sees the light is as large as it is.
     shrink: vec2f,
 }
 
-fn grid_at(kernel: LightKernel, reach: f32, side: f32) -> Grid {
-    let a = reach * length(kernel.right);
-    let b = reach * length(kernel.up);
-    let most = max(a, b);
-    let least = min(a, b);
-    let wide = max(min(2.0 * sqrt(most * least) / side, least), 2.0 * most / (side * side));
-    let last = f32(moments.levels - 1u);
-    let level = clamp(log2(max(COARSE * wide / moments.scale, 1e-6)), 0.0, last);
-    let variance = variance_of_packed(level - 0.5);
-    let full = select(0.25, 1.0 / 3.0, taps.head.is_square != 0u);
-    let share = variance / (full * max(vec2f(a * a, b * b), vec2f(1e-12)));
-    return Grid(level, sqrt(max(1.0 - share, vec2f(0.0))));
+fn filter_at(kernel: LightKernel, reach: f32) -> Filter {
+    let size = reach * vec2f(length(kernel.right), length(kernel.up));
+    let most = max(size.x, size.y);
+    let least = min(size.x, size.y);
+    let count = f32(FILTER);
+    let apart = max(min(2.0 * sqrt(most * least / count), least), 2.0 * most / count);
+    let level = clamp(log2(max(COARSE * apart / moments.scale, 1e-6)), 0.0, f32(moments.levels - 1u));
+    let full = select(0.25, 1.0 / 3.0, taps.head.is_square != 0u) * size * size;
+    let share = variance_of_packed(level - 0.5) / max(full, vec2f(1e-12));
+    return Filter(level, sqrt(max(1.0 - share, vec2f(0.0))));
 }
 
-fn level_of_tap(grid: Grid, i: u32, count: u32) -> u32 {
-    return u32(max(grid.level - (f32(i) + 0.5) / f32(count), 0.0));
-}
-
-fn search_moments(point: MapPoint, kernel: LightKernel, plane: Plane, reach: f32) -> Blockers {
-    let grid = grid_at(kernel, reach, SEARCH_SIDE);
-    var any = vec2f(0.0);
-    var count = 0.0;
-    var sum = vec3f(0.0);
-    var products = vec3f(0.0);
-    var with_reach = vec2f(0.0);
-    var least = 1e30;
-    var most = 0.0;
-    for (var i = 0u; i <= SEARCH; i++) {
-        let at = select(taps.offsets[min(i, SEARCH - 1u)], vec2f(0.0), i == SEARCH);
-        let level = select(level_of_tap(grid, i, SEARCH), 0u, i == SEARCH);
-        let cover = cover_near(point, kernel, plane, kernel_offset(kernel, at, reach), level);
-        let found = clamp(cover.reach, 0.0, reach);
-        let share = select(0.0, cover.share, cover.share > LEAST_SHARE);
-        any += share * vec2f(found, 1.0);
-        if share > 0.0 && found >= reach * rim(at) {
-            count += share;
-            sum += share * vec3f(at, found);
-            products += share * vec3f(at.x * at.x, at.x * at.y, at.y * at.y);
-            with_reach += share * at * found;
-            least = min(least, found);
-            most = max(most, found);
-        }
-    }
-    if count == 0.0 {
-        let mean = any.x / max(any.y, LEAST_SHARE);
-        return Blockers(any.y, mean, vec2f(0.0), mean, mean);
-    }
-    let mean = sum / count;
-    let spread = products / count - vec3f(mean.x * mean.x, mean.x * mean.y, mean.y * mean.y) + vec3f(LEAST_SPREAD, 0.0, LEAST_SPREAD);
-    let slope = with_reach / count - mean.xy * mean.z;
-    let change = vec2f(spread.z * slope.x - spread.y * slope.y, spread.x * slope.y - spread.y * slope.x)
-        / (spread.x * spread.z - spread.y * spread.y);
-    return Blockers(count, mean.z - dot(change, mean.xy), change / max(reach, 1e-30), least, most);
+// The next coarser level is taken by more and more taps, so that nothing is seen of the step.
+fn level_of_tap(level: f32, i: u32) -> u32 {
+    return u32(max(level - fract(0.618034 * f32(i)), 0.0));
 }
 
 // Which part of the cell around a tap is above the receiver's horizon.
 fn share_above_horizon(kernel: LightKernel, at: vec2f) -> f32 {
     let height = kernel.horizon.x + dot(kernel.horizon.yz, at);
-    let half = (abs(kernel.horizon.y) + abs(kernel.horizon.z)) / FILTER_SIDE;
+    let half = (abs(kernel.horizon.y) + abs(kernel.horizon.z)) / sqrt(f32(FILTER));
     return clamp(0.5 + 0.5 * height / max(half, 1e-30), 0.0, 1.0);
+}
+
+// How much of what has this reach hides a point of the light, and not one beyond its rim: see `is_seen`.
+fn share_within(reach: f32, least: f32) -> f32 {
+    return clamp((reach - LOOSE * least) / max((TIGHT - LOOSE) * least, 1e-30), 0.0, 1.0);
 }
 
 fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let kernel = light_kernel(point, pixel);
-    let slope = map_slope(point);
-    let plane = Plane(slope, map_bias(point, slope, CREASE));
-    let found = search_moments(point, kernel, plane, farthest_reach(point, kernel));
-    let grid = grid_at(kernel, found.reach, FILTER_SIDE);
+    let plane = plane_of(point);
+    let found = search_blockers(point, kernel, 0u, farthest_reach(point, kernel));
+    let filtered = filter_at(kernel, found.reach);
     var seen = 0.0;
     for (var i = 0u; i < FILTER; i++) {
-        let at = taps.offsets[SEARCH + i] * grid.shrink;
+        let at = taps.offsets[SEARCH + i] * filtered.shrink;
         let reach = reach_toward(found, at);
-        let cover = cover_near(point, kernel, plane, kernel_offset(kernel, at, reach), level_of_tap(grid, i, FILTER));
-        let hidden = select(0.0, cover.share, max(cover.reach, 0.0) * SLACK >= reach * rim(at));
+        let cover = cover_near(point, kernel, plane, kernel_offset(kernel, at, reach), level_of_tap(filtered.level, i));
+        let hidden = cover.share * share_within(cover.reach, reach * rim(at));
         seen += share_above_horizon(kernel, at) * (1.0 - hidden);
     }
     return seen / f32(FILTER);
