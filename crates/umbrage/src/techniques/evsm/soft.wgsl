@@ -86,11 +86,12 @@ fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let filtered = filter_at(kernel, found.reach);
     var seen = 0.0;
     for (var i = 0u; i < FILTER; i++) {
-        let at = taps.offsets[SEARCH + i] * filtered.shrink;
+        let place = taps.offsets[SEARCH + i];
+        let at = place * filtered.shrink;
         let reach = reach_toward(found, at);
         let cover = cover_near(point, kernel, plane, kernel_offset(kernel, at, reach), level_of_tap(filtered.level, i));
         let hidden = cover.share * share_within(cover.reach, reach * rim(at));
-        seen += share_above_horizon(kernel, at) * (1.0 - hidden);
+        seen += share_above_horizon(kernel, place) * (1.0 - hidden);
     }
     return seen / f32(FILTER);
 }
