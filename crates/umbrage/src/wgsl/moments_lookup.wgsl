@@ -7,14 +7,14 @@
 override MIPS: bool = true;
 
 // The 3 × 3 texels around a point and the weights of a quadratic B-spline: smooth where bilinear weights show the grid, and of the
-// same variance everywhere, ¼.
+// same variance everywhere, ¼. At the border of the map, the texels there count for those beyond.
 struct Spline {
     columns: vec3i,
     rows: vec3i,
-    // From the point to the middle texel, in texels of the level.
-    offset: vec2f,
     x: vec3f,
     y: vec3f,
+    // Texels of the map across one of the level.
+    width: f32,
 }
 
 fn spline_weights(f: f32) -> vec3f {
@@ -22,7 +22,8 @@ fn spline_weights(f: f32) -> vec3f {
 }
 
 fn spline_at(texel: vec2f, level: i32) -> Spline {
-    let at = texel / (moments.scale * f32(1u << u32(level)));
+    let width = moments.scale * f32(1u << u32(level));
+    let at = texel / width;
     let last = vec2i(textureDimensions(moment_map, level)) - 1;
     let middle = clamp(vec2i(at), vec2i(0), last);
     let f = clamp(at - vec2f(middle) - 0.5, vec2f(-0.5), vec2f(0.5));
@@ -30,7 +31,12 @@ fn spline_at(texel: vec2f, level: i32) -> Spline {
     let after = min(middle + 1, last);
     let columns = vec3i(before.x, middle.x, after.x);
     let rows = vec3i(before.y, middle.y, after.y);
-    return Spline(columns, rows, -f, spline_weights(f.x), spline_weights(f.y));
+    return Spline(columns, rows, spline_weights(f.x), spline_weights(f.y), width);
+}
+
+// The mean place of what is looked up, texels of the map: the point itself but at the border.
+fn spline_place(s: Spline) -> vec2f {
+    return (vec2f(dot(s.x, vec3f(s.columns)), dot(s.y, vec3f(s.rows))) + 0.5) * s.width;
 }
 
 fn moments_at(column: i32, row: i32, layer: u32, level: i32) -> vec4f {
@@ -43,8 +49,7 @@ fn moments_in_row(s: Spline, row: i32, layer: u32, level: i32) -> vec4f {
         + s.x.z * moments_at(s.columns.z, row, layer, level);
 }
 
-fn moments_on(texel: vec2f, layer: u32, level: i32) -> vec4f {
-    let s = spline_at(texel, level);
+fn moments_on(s: Spline, layer: u32, level: i32) -> vec4f {
     return s.y.x * moments_in_row(s, s.rows.x, layer, level)
         + s.y.y * moments_in_row(s, s.rows.y, layer, level)
         + s.y.z * moments_in_row(s, s.rows.z, layer, level);
@@ -58,15 +63,18 @@ fn share_of_level(level: f32, i: i32) -> f32 {
 
 // Between two levels. They are gone through in order and each load is of one level for all pixels, since the software driver takes
 // the first of 2 × 2 pixels for all of them.
-fn moments_between(texel: vec2f, layer: u32, level: f32) -> vec4f {
+fn moments_between(texel: vec2f, layer: u32, level: f32) -> Found {
     var sum = vec4f(0.0);
+    var offset = vec2f(0.0);
     for (var i = 0; f32(i) < level + 1.0 && i < i32(textureNumLevels(moment_map)); i++) {
         let share = share_of_level(level, i);
         if share > 0.0 {
-            sum += share * moments_on(texel, layer, i);
+            let s = spline_at(texel, i);
+            sum += share * moments_on(s, layer, i);
+            offset += share * (spline_place(s) - texel);
         }
     }
-    return sum;
+    return Found(sum, offset);
 }
 
 // Texels of the map that a pixel covers, as the side of a square: from the receiver's plane.

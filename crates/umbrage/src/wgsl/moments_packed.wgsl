@@ -5,12 +5,6 @@
 @group(2) @binding(2) var<uniform> moments: Moments;
 @group(2) @binding(3) var moment_map: MomentArray;
 
-// What was found, and how many texels away from the receiver.
-struct Found {
-    moments: vec4f,
-    offset: vec2f,
-}
-
 // Variance that bilinear weights and the boxes that were averaged add, squared texels of the level.
 const OF_LEVEL: f32 = 0.25;
 

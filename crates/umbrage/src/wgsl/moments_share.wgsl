@@ -3,6 +3,15 @@
 // Shares of light up to this count as none.
 override BLEEDING: f32 = 0.0;
 
+// What a plane falls to at most that leaves the light's view.
+const LEAST_STORED: f32 = 1e-30;
+
+// What was looked up, and how many texels away from the receiver: where the map ends, filters stay inside.
+struct Found {
+    moments: vec4f,
+    offset: vec2f,
+}
+
 // The receiver in linear depth.
 struct LinearPoint {
     depth: f32,
@@ -10,9 +19,10 @@ struct LinearPoint {
     slope: vec2f,
 }
 
-fn linear_point(point: MapPoint, crease: f32) -> LinearPoint {
+// The receiver's plane, `offset` texels away.
+fn linear_point(point: MapPoint, offset: vec2f, crease: f32) -> LinearPoint {
     let slope = map_slope(point);
-    let stored = point.depth + map_bias(point, slope, crease);
+    let stored = max(depth_along(point, slope, offset) + map_bias(point, slope, crease), LEAST_STORED);
     return LinearPoint(linear_depth(moments, stored), slope * linear_depth_change(moments, stored));
 }
 

@@ -3,12 +3,11 @@
 // Shares of light of the texels around, each compared with the receiver's plane continued to there.
 fn share_on(point: MapPoint, receiver: LinearPoint, level: i32) -> f32 {
     let s = spline_at(point.texel, level);
-    let step = moments.scale * f32(1 << u32(level));
     var sum = 0.0;
     for (var y = 0; y < 3; y++) {
         for (var x = 0; x < 3; x++) {
-            let offset = (s.offset + vec2f(f32(x - 1), f32(y - 1))) * step;
-            let depth = receiver.depth + dot(receiver.slope, offset);
+            let place = (vec2f(f32(s.columns[x]), f32(s.rows[y])) + 0.5) * s.width;
+            let depth = receiver.depth + dot(receiver.slope, place - point.texel);
             let stored = moments_at(s.columns[x], s.rows[y], point.layer, level).x;
             sum += s.x[x] * s.y[y] * exp(min(EXPONENT * (stored - depth), 0.0));
         }
@@ -18,7 +17,7 @@ fn share_on(point: MapPoint, receiver: LinearPoint, level: i32) -> f32 {
 
 fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let level = level_of_pixel(point, pixel);
-    let receiver = linear_point(point, (1.0 + CREASE) * exp2(level));
+    let receiver = linear_point(point, vec2f(0.0), (1.0 + CREASE) * exp2(level));
     var sum = 0.0;
     for (var i = 0; f32(i) < level + 1.0 && i < i32(textureNumLevels(moment_map)); i++) {
         let share = share_of_level(level, i);

@@ -2,6 +2,7 @@
 
 fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let level = level_of_pixel(point, pixel);
-    let m = moments_between(point.texel, point.layer, level);
-    return without_bleeding(share_of(m, linear_point(point, CREASE * exp2(level)), variance_of(level)));
+    let found = moments_between(point.texel, point.layer, level);
+    let receiver = linear_point(point, found.offset, CREASE * exp2(level));
+    return without_bleeding(share_of(found.moments, receiver, variance_of(level)));
 }

@@ -32,7 +32,7 @@ fn plane_of(point: MapPoint) -> Plane {
 
 fn cover_near(point: MapPoint, kernel: LightKernel, plane: Plane, offset: vec2f, level: u32) -> Cover {
     let found = moments_near(point, offset, level);
-    let stored = max(depth_along(point, plane.slope, found.offset) + plane.bias, 1e-30);
+    let stored = max(depth_along(point, plane.slope, found.offset) + plane.bias, LEAST_STORED);
     let receiver = linear_depth(moments, stored);
     // What slopes towards the light within the tap is no blocker: steep exponentials would take it for one.
     let nearest = receiver - plane.change * moments.scale * f32(1u << level) * SPREAD;

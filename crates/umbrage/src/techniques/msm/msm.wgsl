@@ -41,10 +41,11 @@ fn smallest_shadow(b: vec4f, z: f32) -> f32 {
 
 fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let level = level_of_pixel(point, pixel);
-    let receiver = linear_point(point, CREASE * exp2(level));
+    let found = moments_between(point.texel, point.layer, level);
+    let receiver = linear_point(point, found.offset, CREASE * exp2(level));
     let spread = 4.0 * variance_of(level) * dot(receiver.slope, receiver.slope);
     let bias = clamp(max(MOMENT_BIAS, PLANE_BIAS * spread * spread), 0.0, 0.25);
-    let b = mix(moments_between(point.texel, point.layer, level), FLATTEST, bias);
+    let b = mix(found.moments, FLATTEST, bias);
     let shadow = smallest_shadow(b, 2.0 * receiver.depth - 1.0);
     // Not a number where depths are all the same.
     return without_bleeding(1.0 - select(0.0, clamp(shadow, 0.0, 1.0), shadow > 0.0));
