@@ -6,7 +6,7 @@ mod layers;
 
 use crate::bounds::Bounds;
 use crate::mesh::Mesh;
-use crate::weld::weld;
+use crate::weld::weld_mesh;
 use glam::{DVec3, DVec4, Vec4};
 
 /// No second triangle.
@@ -60,7 +60,7 @@ pub struct Adjacency {
     pub is_closed: bool,
     /// No more triangles than this that face away from the light (for meshes that are not closed: triangles) lie on any
     /// line that starts at a light outside the box. Convex parts, up to the rounding of their vertices, count once
-    /// (twice), of others every second (every) triangle.
+    /// (twice), of others every second (every) triangle. Of a mesh with joints no part is taken for convex.
     pub layers: u32,
     /// Length of the longest edge, in units of the mesh.
     pub longest_edge: f64,
@@ -74,13 +74,12 @@ impl Adjacency {
         let position = |i: u32| mesh.positions[i as usize].as_dvec3();
         let corners: Vec<[DVec3; 3]> = triangles.iter().map(|t| t.map(position)).collect();
         let center = Bounds::of(corners.iter().flatten().copied()).center();
-        let planes: Vec<DVec4> = corners.iter().map(|c| plane(c.map(|p| p - center))).collect();
         let length_squared = |e: &Edge| position(e.vertices[0]).distance_squared(position(e.vertices[1]));
         Self {
             is_closed: edges.iter().all(Edge::is_balanced),
-            layers: layers::count(&corners, &edges),
+            layers: layers::count(&corners, &edges, mesh.weights.is_empty()),
             longest_edge: edges.iter().map(length_squared).fold(0.0, f64::max).sqrt(),
-            planes: planes.iter().map(|p| p.as_vec4()).collect(),
+            planes: planes(&triangles, mesh, center).collect(),
             center,
             triangles,
             numbers,
@@ -89,12 +88,23 @@ impl Adjacency {
     }
 }
 
+impl Adjacency {
+    /// [`Adjacency::planes`] of the mesh in another pose, about the same centre.
+    pub fn planes_in(&self, posed: &Mesh) -> Vec<Vec4> {
+        planes(&self.triangles, posed, self.center).collect()
+    }
+}
+
+fn planes(triangles: &[[u32; 3]], mesh: &Mesh, center: DVec3) -> impl Iterator<Item = Vec4> {
+    triangles.iter().map(move |t| plane(mesh.corners(*t).map(|p| p.as_dvec3() - center)).as_vec4())
+}
+
 /// The mesh with every triangle that repeats an earlier one's corners, whichever way round, shrunk to a point; numbers stay.
 ///
 /// A copy adds nothing to a shadow but sides on top of one another, and where unequal numbers of copies meet a side in the
 /// middle of a surface, where rounding may put a pixel on the wrong side of it.
 pub fn without_copies(mesh: &Mesh) -> Mesh {
-    let welded = weld(&mesh.positions);
+    let welded = weld_mesh(mesh);
     let place = |i: u32| welded.get(i as usize).copied().unwrap_or(NONE);
     let mut sorted: Vec<([u32; 3], usize)> = mesh.triangles().map(|t| t.map(place)).zip(0..).collect();
     sorted.iter_mut().for_each(|(corners, _)| corners.sort_unstable());
@@ -110,7 +120,7 @@ pub fn without_copies(mesh: &Mesh) -> Mesh {
 
 /// Numbers and welded corners of the triangles that are whole.
 fn welded_triangles(mesh: &Mesh) -> Vec<(u32, [u32; 3])> {
-    let welded = weld(&mesh.positions);
+    let welded = weld_mesh(mesh);
     let is_whole = |t: &[u32; 3]| t.iter().all(|&i| mesh.positions.get(i as usize).is_some_and(|p| p.is_finite()));
     let whole = (0..).zip(mesh.triangles()).filter(|(_, t)| is_whole(t));
     let triangles = whole.map(|(number, t)| (number, t.map(|i| welded[i as usize])));
@@ -295,6 +305,19 @@ pub(crate) mod tests {
         assert!(single.numbers.contains(&0) && !single.numbers.contains(&1) && !single.numbers.contains(&22));
         let broken = Mesh { indices: vec![0, 1, 999, 0, 1, 999], ..primitive::plane() };
         assert!(Adjacency::of(&without_copies(&broken)).triangles.is_empty());
+    }
+
+    #[test]
+    fn what_joints_may_part_is_not_joined() {
+        let mut cube = primitive::cube();
+        let lower = |p: &Vec3| crate::rig::Influence { joint: u32::from(p.y < 0.0), weight: 1.0 };
+        cube.positions.iter().for_each(|p| cube.weights.push(&[lower(p)]));
+        let bends = checked(&cube);
+        assert_eq!((bends.is_closed, bends.layers), (true, 6), "closed in any pose, but not convex in all");
+        cube.weights = Default::default();
+        (0..24).for_each(|i| cube.weights.push(&[crate::rig::Influence { joint: i / 4, weight: 1.0 }]));
+        let parts = checked(&cube);
+        assert_eq!((kinds(&parts), parts.is_closed), ((24, 0, 6), false), "six sides that may move away");
     }
 
     #[test]

@@ -25,6 +25,7 @@ pub mod material;
 pub mod mesh;
 pub mod mesh_check;
 pub mod primitive;
+pub mod rig;
 pub mod sampling;
 pub mod scene;
 pub mod scene_tree;
@@ -42,7 +43,8 @@ pub use image::Image;
 pub use light::{Light, LightKind, LightKinds, LightShape};
 pub use material::{Material, Texture};
 pub use mesh::Mesh;
-pub use scene::{Instance, Scene};
+pub use rig::Rig;
+pub use scene::{Instance, Pose, Scene};
 pub use scene_tree::SceneTree;
 
 pub use glam;

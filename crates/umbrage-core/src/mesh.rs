@@ -1,6 +1,7 @@
 //! Triangle meshes.
 
 use crate::bounds::Bounds;
+use crate::rig::Weights;
 use glam::{DAffine3, DVec4, Vec2, Vec3};
 
 /// Indexed triangles in the mesh's own space.
@@ -14,6 +15,8 @@ pub struct Mesh {
     pub normals: Vec<Vec3>,
     /// Texture coordinates, one a vertex, or none at all.
     pub uvs: Vec<Vec2>,
+    /// What moves the vertices, where the mesh has joints; one entry a vertex, or none at all.
+    pub weights: Weights,
     /// Three a triangle, counter-clockwise seen from the front.
     pub indices: Vec<u32>,
 }
@@ -95,6 +98,9 @@ impl Mesh {
                     mesh.positions.push(self.positions[v]);
                     mesh.normals.push(normal);
                     mesh.uvs.extend(self.uvs.get(v));
+                    if !self.weights.is_empty() {
+                        mesh.weights.push(self.weights.of(v));
+                    }
                     new
                 }));
             }
@@ -118,10 +124,15 @@ impl Mesh {
         mesh
     }
 
-    /// Appends the triangles of `other`, as they are.
+    /// Appends the triangles of `other`, as they are; joints are taken for the same.
     pub fn append(&mut self, other: &Mesh) {
         let base = self.positions.len() as u32;
         let both_uvs = self.uvs.len() == self.positions.len() && other.uvs.len() == other.positions.len();
+        if !self.weights.is_empty() || !other.weights.is_empty() {
+            self.weights.pad(self.positions.len());
+            self.weights.append(&other.weights);
+            self.weights.pad(self.positions.len() + other.positions.len());
+        }
         self.positions.extend(&other.positions);
         self.normals.extend(&other.normals);
         if both_uvs {

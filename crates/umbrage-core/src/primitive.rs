@@ -14,6 +14,7 @@ pub fn plane() -> Mesh {
         normals: vec![Vec3::Y; 4],
         uvs: corners.map(|(x, z)| Vec2::new(x + 0.5, z + 0.5)).to_vec(),
         indices: vec![0, 1, 2, 0, 2, 3],
+        ..Mesh::default()
     }
 }
 

@@ -1,7 +1,9 @@
 //! A scene: everything a picture needs.
 
+use crate::rig::{Moment, Rig};
 use crate::{bounds::Bounds, camera::Camera, light::Light, material::Material, material::Texture, mesh::Mesh};
 use glam::{DAffine3, Vec3};
+use std::borrow::Cow;
 
 /// Meshes placed in the world, lights and a camera.
 #[derive(Clone, Debug, Default)]
@@ -18,6 +20,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Pictures; materials and lights refer to them.
     pub textures: Vec<Texture>,
+    /// What poses meshes with joints; instances refer to them.
+    pub rigs: Vec<Rig>,
     /// Placed meshes.
     pub instances: Vec<Instance>,
     /// Lights, in the order of the file.
@@ -35,22 +39,57 @@ pub struct Instance {
     pub model: usize,
     /// Places the mesh.
     pub world_from_mesh: DAffine3,
+    /// How its joints hold it; `None` for a mesh as it is.
+    pub pose: Option<Pose>,
     /// False: it throws no shadow.
     pub casts: bool,
     /// False: no shadow falls on it.
     pub receives: bool,
 }
 
+/// How the joints of an instance's mesh stand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Index into [`Scene::rigs`].
+    pub rig: usize,
+    /// Index into [`Rig::skins`].
+    pub skin: usize,
+    /// Of an animation; `None` at rest.
+    pub moment: Option<Moment>,
+}
+
 impl Scene {
+    /// What each joint of an instance does to the vertices of its mesh; `None` for a mesh as it is.
+    pub fn joints(&self, instance: &Instance) -> Option<Vec<DAffine3>> {
+        let pose = instance.pose?;
+        Some(self.rigs.get(pose.rig)?.joints_at(pose.skin, pose.moment))
+    }
+
+    /// An instance's mesh as its joints hold it.
+    pub fn posed_mesh(&self, instance: &Instance) -> Cow<'_, Mesh> {
+        let mesh = &self.meshes[instance.mesh];
+        self.joints(instance).map_or(Cow::Borrowed(mesh), |joints| Cow::Owned(mesh.posed(&joints)))
+    }
+
+    /// Moves every animation on by so many seconds.
+    pub fn advance(&mut self, seconds: f64) {
+        let poses = self.instances.iter_mut().filter_map(|i| i.pose.as_mut());
+        poses.filter_map(|pose| pose.moment.as_mut()).for_each(|moment| moment.time_s += seconds);
+    }
+
     /// The box around an instance.
     pub fn instance_bounds(&self, instance: &Instance) -> Bounds {
-        self.meshes[instance.mesh].bounds().transformed(&instance.world_from_mesh)
+        self.posed_mesh(instance).bounds().transformed(&instance.world_from_mesh)
     }
 
     /// The box around all instances.
     pub fn bounds(&self) -> Bounds {
         let meshes: Vec<Bounds> = self.meshes.iter().map(Mesh::bounds).collect();
-        self.instances.iter().fold(Bounds::EMPTY, |b, i| b.union(meshes[i.mesh].transformed(&i.world_from_mesh)))
+        let of = |i: &Instance| match i.pose {
+            Some(_) => self.instance_bounds(i),
+            None => meshes[i.mesh].transformed(&i.world_from_mesh),
+        };
+        self.instances.iter().map(of).fold(Bounds::EMPTY, Bounds::union)
     }
 
     /// Number of triangles, each instance counted.
@@ -78,7 +117,8 @@ impl Scene {
     /// Places a mesh as a model of its own that casts and receives; returns the instance to change.
     pub fn place(&mut self, mesh: usize, material: usize, world_from_mesh: DAffine3) -> &mut Instance {
         let model = self.instances.last().map_or(0, |i| i.model + 1);
-        self.instances.push(Instance { mesh, material, model, world_from_mesh, casts: true, receives: true });
+        let instance = Instance { mesh, material, model, world_from_mesh, pose: None, casts: true, receives: true };
+        self.instances.push(instance);
         let last = self.instances.len() - 1;
         &mut self.instances[last]
     }

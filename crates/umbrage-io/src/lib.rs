@@ -47,7 +47,9 @@ pub fn open(path: &Path) -> Result<Opened, Error> {
     let mut scene = Scene { name: title(path), ..Scene::default() };
     let bases = model.add_to(&mut scene);
     model.place(&mut scene, bases, &model::Placement::default());
+    let rest_note = model.rest_note(path);
     let mut notes = model.notes;
+    notes.extend(rest_note);
     match model.camera {
         Some(camera) => scene.camera = camera,
         None => defaults::add_camera(&mut scene, &mut notes),

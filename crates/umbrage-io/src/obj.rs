@@ -9,9 +9,9 @@
 
 use crate::error::{self, Error, Place};
 use crate::lines::{self, Line};
-use crate::model::{Model, Part, is_usable, is_usable_uv};
+use crate::model::{Hold, Model, Part, is_usable, is_usable_uv};
 use crate::mtl::Library;
-use glam::{DAffine3, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 use std::collections::HashMap;
 use std::ops::Range;
 use std::path::Path;
@@ -190,11 +190,7 @@ impl Contents {
                 ));
             }
             uses_default |= known.is_none();
-            model.parts.push(Part {
-                mesh: model.meshes.len(),
-                material: known.unwrap_or(default),
-                model_from_mesh: DAffine3::IDENTITY,
-            });
+            model.parts.push(Part { mesh: model.meshes.len(), material: known.unwrap_or(default), hold: Hold::Model });
             model.meshes.push(builder.mesh);
         }
         if uses_default {

@@ -169,7 +169,7 @@ fn the_small_scenes_open() {
     // The joint moves by (1, 0, 0), its inverse bind matrix by (0, 0, 3); the node's own scale does not count.
     let scene = open(&folder.path("a.glb")).unwrap().scene;
     let want = [[1.0, 0.0, 3.0], [2.0, 0.0, 3.0], [1.0, 1.0, 3.0]].map(glam::Vec3::from);
-    assert_eq!(scene.meshes[0].positions, want);
+    assert_eq!(scene.posed_mesh(&scene.instances[0]).positions, want);
     assert_eq!(scene.materials[0].alpha_cutoff, Some(0.5));
     assert_eq!(scene.camera.eye, glam::DVec3::new(0.0, 0.0, 5.0));
     assert_eq!(scene.lights[0].shape.kind(), umbrage_core::LightKind::Spot);

@@ -36,7 +36,7 @@ pub(crate) struct InstanceFlags {
 }
 
 impl Tracer {
-    /// Prepares a scene. Triangles without area, with corners that are not finite or indices out of range are left out.
+    /// Prepares a scene as its animations stand. Triangles without area, with corners that are not finite or indices out of range are left out.
     pub fn new(scene: &Scene) -> Self {
         let bounds = scene_bounds(scene);
         let mut tracer = Self {
@@ -61,7 +61,10 @@ impl Tracer {
     }
 
     fn add(&mut self, scene: &Scene, instance: &Instance, triangles: &mut Vec<Triangle>) {
-        let Some(mesh) = scene.meshes.get(instance.mesh) else { return };
+        if instance.mesh >= scene.meshes.len() {
+            return;
+        }
+        let mesh = &*scene.posed_mesh(instance);
         let holes = self.cutouts.holes(scene, instance);
         let number = self.instances.len() as u32;
         let Instance { casts, receives, model, .. } = *instance;
@@ -122,7 +125,10 @@ impl Tracer {
 /// The box around the corners that rays can meet.
 fn scene_bounds(scene: &Scene) -> Bounds {
     scene.instances.iter().fold(Bounds::EMPTY, |bounds, instance| {
-        let Some(mesh) = scene.meshes.get(instance.mesh) else { return bounds };
+        if instance.mesh >= scene.meshes.len() {
+            return bounds;
+        }
+        let mesh = scene.posed_mesh(instance);
         let corners = mesh.indices.iter().filter_map(|&i| mesh.positions.get(i as usize));
         bounds.union(Bounds::of(corners.map(|p| p.as_dvec3())).transformed(&instance.world_from_mesh))
     })

@@ -5,7 +5,7 @@ use serde::Serialize;
 use std::{f64::consts::TAU, str::FromStr};
 use umbrage::{Gpu, Renderer};
 use umbrage_core::glam::{DAffine3, DVec3};
-use umbrage_core::{Bounds, Camera, LightShape, Scene};
+use umbrage_core::{Bounds, Camera, Instance, LightShape, Scene};
 
 /// What moves from frame to frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -16,7 +16,7 @@ pub enum Moving {
     None,
     /// Lights go round a level circle whose radius is 5 % of that of the scene; parallel light turns by 3 degrees.
     Lights,
-    /// Everything that casts and is not flat sinks and rises by 5 % of its smallest side.
+    /// Everything that casts and is not flat sinks and rises by 5 % of its smallest side; animations run.
     Casters,
     /// The eye circles by 2 % of its distance from what it looks at.
     Camera,
@@ -69,18 +69,22 @@ pub(crate) struct Motion<'a> {
     radius: f64,
     /// Casting instances and how far they sink, metres.
     sinking: Vec<(usize, f64)>,
+    /// Instances whose joints move.
+    bending: Vec<usize>,
 }
 
 impl<'a> Motion<'a> {
     pub(crate) fn new(moving: Moving, scene: &'a Scene) -> Self {
         let meshes: Vec<Bounds> = scene.meshes.iter().map(|m| m.bounds()).collect();
-        let casters = scene.instances.iter().enumerate().filter(|(_, i)| i.casts && moving.moves(Moving::Casters));
-        let sinking = casters.map(|(number, instance)| {
+        let casters = || scene.instances.iter().enumerate().filter(|(_, i)| i.casts && moving.moves(Moving::Casters));
+        let is_animated = |i: &Instance| i.pose.is_some_and(|pose| pose.moment.is_some());
+        let bending = casters().filter(|(_, i)| is_animated(i)).map(|(number, _)| number).collect();
+        let sinking = casters().map(|(number, instance)| {
             let smallest = meshes[instance.mesh].transformed(&instance.world_from_mesh).size().min_element();
             (number, SINK_SHARE * smallest)
         });
         let sinking = sinking.filter(|(_, depth)| *depth > 0.0).collect();
-        Self { moving, scene, radius: scene.bounds().radius(), sinking }
+        Self { moving, scene, radius: scene.bounds().radius(), sinking, bending }
     }
 
     /// Moves the lights (one a pass) and the casters of `renderer` to where they are in frame `frame`.
@@ -97,6 +101,22 @@ impl<'a> Motion<'a> {
             let world_from_mesh = DAffine3::from_translation(down) * self.scene.instances[number].world_from_mesh;
             renderer.casters_mut().move_instance(gpu, number, &world_from_mesh);
         }
+        for &number in &self.bending {
+            renderer.casters_mut().set_pose(number, &self.joints(number, frame));
+        }
+    }
+
+    /// The joints of an instance in frame `frame`: its animation runs once in a period, starting where the scene has it.
+    fn joints(&self, number: usize, frame: u32) -> Vec<DAffine3> {
+        let mut instance = self.scene.instances[number].clone();
+        if let Some(pose) = &mut instance.pose
+            && let Some(moment) = &mut pose.moment
+        {
+            let animation = self.scene.rigs.get(pose.rig).and_then(|rig| rig.animations.get(moment.animation));
+            let share = f64::from(frame % PERIOD) / f64::from(PERIOD);
+            moment.time_s += share * animation.map_or(0.0, |a| a.duration_s());
+        }
+        self.scene.joints(&instance).unwrap_or_default()
     }
 
     /// The camera of frame `frame`.
@@ -177,7 +197,7 @@ mod tests {
     #[test]
     fn pictures_change_on_the_way_and_are_the_same_after_a_round() {
         let gpu = Gpu::request(None).unwrap();
-        let scene = (scenes::find("primitives").unwrap().build)(0.1);
+        let scene = (scenes::find("tentacles").unwrap().build)(0.1);
         for moving in Moving::ALL {
             let motion = Motion::new(moving, &scene);
             let info = umbrage::find("shadow-map").unwrap();

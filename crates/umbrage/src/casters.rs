@@ -5,9 +5,10 @@
 //! numbers as its per-instance vertex buffer: culling writes that list and nothing else.
 
 use crate::fullscreen::{STORAGE, bind, layout};
-use crate::{error::Error, gpu::Gpu, shader::shader_struct};
-use std::{ops::Range, sync::OnceLock};
-use umbrage_core::glam::{DAffine3, DVec3, DVec4};
+use crate::{error::Error, gpu::Gpu, passes::Passes, shader::shader_struct};
+use poses::Poses;
+use std::{ops::Range, sync::Arc, sync::OnceLock};
+use umbrage_core::glam::{DAffine3, DVec3, DVec4, Vec4};
 use umbrage_core::{Bounds, Mesh, Scene, scene_tree::SceneTree};
 
 mod draw_list;
@@ -16,6 +17,7 @@ mod eye_tree;
 mod material;
 mod moves;
 mod places;
+mod poses;
 mod sides;
 pub(crate) use draw_list::{DrawList, InstanceNumbers, Light};
 pub(crate) use edges::{EDGES_WGSL, Edge, Edges, MeshEdges};
@@ -23,6 +25,7 @@ pub(crate) use eye_tree::Sight;
 pub(crate) use material::{MATERIAL_LAYOUT, MATERIALS_WGSL, texture_layout};
 pub(crate) use moves::Moves;
 pub(crate) use places::Places;
+pub(crate) use poses::SHADERS;
 pub(crate) use sides::Sides;
 
 /// Declares `Instance` and how a vertex gets into the world.
@@ -71,18 +74,57 @@ pub struct Casters {
     /// Places of those that do neither.
     bystanders: Vec<u32>,
     moves: Moves,
-    /// Positions and indices alone, for what is made of them on demand.
+    /// Without appearance, for what is made of them on demand: those of the scene, then one for each posed instance.
     meshes: Vec<MeshPart>,
+    poses: Poses,
     edges: OnceLock<Edges>,
     bytes: u64,
 }
 
 /// A mesh and where it lies in the shared buffers.
 pub(crate) struct MeshPart {
-    /// Without normals and texture coordinates.
-    pub mesh: Mesh,
+    /// Without normals and texture coordinates; of a posed instance as it was bound.
+    pub mesh: Arc<Mesh>,
     pub first_index: u32,
     pub base_vertex: u32,
+}
+
+impl MeshPart {
+    fn indices(&self) -> Range<u32> {
+        self.first_index..self.first_index + self.mesh.indices.len() as u32
+    }
+}
+
+/// The contents of the vertex and index buffers.
+#[derive(Default)]
+struct Vertices {
+    positions: Vec<[f32; 3]>,
+    /// Normal and texture coordinate.
+    attributes: Vec<[f32; 5]>,
+    indices: Vec<u32>,
+}
+
+impl Vertices {
+    fn add(&mut self, mesh: &Mesh) -> MeshPart {
+        let first_index = self.indices.len() as u32;
+        self.indices.extend(&mesh.indices);
+        let base_vertex = self.pose(mesh);
+        let (positions, indices, weights) = (mesh.positions.clone(), mesh.indices.clone(), mesh.weights.clone());
+        let mesh = Arc::new(Mesh { positions, indices, weights, ..Mesh::default() });
+        MeshPart { mesh, first_index, base_vertex }
+    }
+
+    /// Adds vertices alone.
+    fn pose(&mut self, mesh: &Mesh) -> u32 {
+        let base_vertex = self.positions.len() as u32;
+        self.positions.extend(mesh.positions.iter().map(|p| p.to_array()));
+        self.attributes.extend((0..mesh.positions.len()).map(|i| {
+            let n = mesh.normals.get(i).copied().unwrap_or_default();
+            let uv = mesh.uvs.get(i).copied().unwrap_or_default();
+            [n.x, n.y, n.z, uv.x, uv.y]
+        }));
+        base_vertex
+    }
 }
 
 /// Instances of one mesh with one texture: one draw.
@@ -101,7 +143,10 @@ struct Batch {
 /// What the CPU keeps of an instance, in the order of the batches.
 pub(crate) struct Placed {
     pub number: u32,
+    /// Index into [`Casters::meshes`].
     pub mesh: u32,
+    /// Its mesh is its own, and the GPU alone knows its vertices.
+    pub posed: bool,
     pub world_from_mesh: DAffine3,
     pub sides: Option<Sides>,
     pub masked: bool,
@@ -123,28 +168,25 @@ impl Casters {
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, Error> {
         check(gpu, scene)?;
         let origin = scene.bounds().center();
-        let (mut positions, mut attributes, mut indices) = (Vec::new(), Vec::new(), Vec::<u32>::new());
+        let mut vertices = Vertices::default();
         let (mut ranges, mut meshes) = (Vec::new(), Vec::new());
         for mesh in &scene.meshes {
-            let base_vertex = positions.len() as i32;
-            let first = indices.len() as u32;
-            positions.extend(mesh.positions.iter().map(|p| p.to_array()));
-            attributes.extend((0..mesh.positions.len()).map(|i| {
-                let n = mesh.normals.get(i).copied().unwrap_or_default();
-                let uv = mesh.uvs.get(i).copied().unwrap_or_default();
-                [n.x, n.y, n.z, uv.x, uv.y]
-            }));
-            indices.extend(&mesh.indices);
-            ranges.push((first..indices.len() as u32, base_vertex, mesh.bounds(), mesh.plane()));
-            let (positions, indices) = (mesh.positions.clone(), mesh.indices.clone());
-            let mesh = Mesh { positions, indices, ..Mesh::default() };
-            meshes.push(MeshPart { mesh, first_index: first, base_vertex: base_vertex as u32 });
+            let part = vertices.add(mesh);
+            ranges.push((part.indices(), part.base_vertex as i32, mesh.bounds(), mesh.plane()));
+            meshes.push(part);
+        }
+        let mut poses = Poses::new(scene);
+        for (mesh, posed) in poses.meshes(scene) {
+            let source = &meshes[mesh];
+            let part = MeshPart { base_vertex: vertices.pose(&posed), mesh: source.mesh.clone(), ..*source };
+            ranges.push((part.indices(), part.base_vertex as i32, poses.bounds(meshes.len()), None));
+            meshes.push(part);
         }
         let mut order: Vec<usize> = (0..scene.instances.len()).collect();
         let key = |i: usize| {
             let instance = &scene.instances[i];
             let material = &scene.materials[instance.material];
-            (material.alpha_cutoff.is_some(), material.texture, instance.mesh)
+            (material.alpha_cutoff.is_some(), material.texture, poses.mesh_of(i).unwrap_or(instance.mesh))
         };
         order.sort_by_key(|&i| key(i));
         let mut placed: Vec<Placed> = Vec::with_capacity(order.len());
@@ -168,6 +210,7 @@ impl Casters {
             placed.push(Placed {
                 number: i as u32,
                 mesh: mesh as u32,
+                posed: mesh >= scene.meshes.len(),
                 world_from_mesh: instance.world_from_mesh,
                 sides: Sides::of(&instance.world_from_mesh),
                 masked,
@@ -192,9 +235,12 @@ impl Casters {
         placed.iter().for_each(|p| data[p.number as usize] = p.data);
 
         use wgpu::BufferUsages as Usage;
-        let positions = gpu.buffer("positions", &positions, Usage::VERTEX | Usage::STORAGE);
-        let attributes = gpu.buffer("normals and texture coordinates", &attributes, Usage::VERTEX);
+        let Vertices { positions, attributes, indices } = vertices;
+        let of_vertices = Usage::VERTEX | Usage::STORAGE | Usage::COPY_SRC;
+        let positions = gpu.buffer("positions", &positions, of_vertices);
+        let attributes = gpu.buffer("normals and texture coordinates", &attributes, of_vertices);
         let indices = gpu.buffer("indices", &indices, Usage::INDEX | Usage::STORAGE);
+        poses.prepare(gpu, scene, &meshes, [&positions, &attributes])?;
         let instances = gpu.buffer("instances", &data, Usage::STORAGE | Usage::COPY_DST);
         let materials = gpu.buffer("materials", &material::all(scene), Usage::STORAGE);
         let bytes = [&positions, &attributes, &indices, &instances, &materials].iter().map(|b| b.size()).sum();
@@ -234,6 +280,7 @@ impl Casters {
             receiving,
             bystanders,
             meshes,
+            poses,
             edges: OnceLock::new(),
             bytes,
         })
@@ -262,6 +309,27 @@ impl Casters {
         let at = instance as u64 * size_of::<Instance>() as u64;
         gpu.queue.write_buffer(&self.instances, at, bytemuck::bytes_of(&placed.data));
         self.note_moved(place);
+    }
+
+    /// Bends an instance that has a [`umbrage_core::Pose`] (by its place in [`Scene::instances`]): `joints` are what each of its
+    /// joints does to the mesh as it was bound, see [`umbrage_core::Rig::joints_at`]; a missing one does nothing. Costs a box a
+    /// joint; vertices follow on the GPU, see [`Casters::record_poses`]. Instances without a pose do not bend, and a matrix that is
+    /// not finite changes nothing, nor does the pose that it has already.
+    pub fn set_pose(&mut self, instance: usize, joints: &[DAffine3]) {
+        let (Some(mesh), Some(&place)) = (self.poses.mesh_of(instance), self.place_of.get(instance)) else { return };
+        if !self.poses.set(mesh, joints) {
+            return;
+        }
+        let placed = &mut self.placed[place as usize];
+        placed.mesh_bounds = self.poses.bounds(mesh);
+        placed.bounds = placed.mesh_bounds.transformed(&placed.world_from_mesh);
+        self.note_moved(place);
+    }
+
+    /// Moves the vertices of all instances that [`Casters::set_pose`] bent since the last time, once for everybody who draws them:
+    /// to be called before the G-buffer is drawn and before techniques are recorded.
+    pub fn record_poses(&mut self, passes: &mut Passes<'_>) {
+        self.poses.record(passes, self.edges.get());
     }
 
     /// After the box of the instance at this place, or what is in it, has changed.
@@ -293,7 +361,7 @@ impl Casters {
 
     /// GPU memory held, textures apart. Edges count from when a technique first asks for them.
     pub fn bytes(&self) -> u64 {
-        self.bytes + self.edges.get().map_or(0, Edges::bytes)
+        self.bytes + self.poses.bytes() + self.edges.get().map_or(0, Edges::bytes)
     }
 
     /// Boxes around the instances that throw shadows.
@@ -335,6 +403,11 @@ impl Casters {
     /// The meshes without their appearance.
     pub(crate) fn meshes(&self) -> &[MeshPart] {
         &self.meshes
+    }
+
+    /// Planes of the triangles of a mesh as it is posed, in the order of its [`umbrage_core::adjacency::Adjacency`].
+    pub(crate) fn planes<'a>(&'a self, mesh: u32, edges: &'a MeshEdges) -> &'a [Vec4] {
+        self.poses.planes(mesh as usize, &edges.adjacency).unwrap_or(&edges.adjacency.planes)
     }
 
     /// Edges and planes of all meshes, made when first asked for.
@@ -396,6 +469,11 @@ fn check(gpu: &Gpu, scene: &Scene) -> Result<(), Error> {
         if instance.mesh >= scene.meshes.len() || instance.material >= scene.materials.len() {
             return Err(Error::Scene(format!("instance {i} refers to a mesh or material that is not in the scene")));
         }
+        let held_by = scene.meshes[instance.mesh].weights.influences().iter().map(|i| i.joint as usize + 1).max();
+        let joints = scene.joints(instance);
+        if instance.pose.is_some() && joints.is_none_or(|j| j.len() < held_by.unwrap_or(0)) {
+            return Err(Error::Scene(format!("instance {i} has a pose without the joints that its mesh needs")));
+        }
     }
     for material in &scene.materials {
         if material.texture.is_some_and(|t| t >= scene.textures.len()) {
@@ -408,7 +486,8 @@ fn check(gpu: &Gpu, scene: &Scene) -> Result<(), Error> {
         }
     }
     let limits = gpu.device.limits();
-    let vertices: u64 = scene.meshes.iter().map(|m| m.positions.len() as u64).sum();
+    let posed = scene.instances.iter().filter(|i| i.pose.is_some()).map(|i| &scene.meshes[i.mesh]);
+    let vertices: u64 = scene.meshes.iter().chain(posed).map(|m| m.positions.len() as u64).sum();
     let indices: u64 = scene.meshes.iter().map(|m| m.indices.len() as u64).sum();
     let instances = scene.instances.len() as u64;
     for (what, size, limit) in [

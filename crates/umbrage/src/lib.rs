@@ -63,8 +63,13 @@ pub use umbrage_core as core;
 pub use view::View;
 pub use visibility::VisibilityTarget;
 
-/// Every shader of the library: those of the techniques, the adaptor, the baselines and the renderer.
+/// Every shader of the library: those of the techniques, the adaptor, poses, the baselines and the renderer.
 pub fn shaders() -> Vec<Shader> {
     let own = techniques().iter().flat_map(|t| t.shaders);
-    own.chain([&light_samples::SHADER]).chain(baseline::SHADERS).chain(renderer::SHADERS).copied().collect()
+    own.chain([&light_samples::SHADER])
+        .chain(casters::SHADERS)
+        .chain(baseline::SHADERS)
+        .chain(renderer::SHADERS)
+        .copied()
+        .collect()
 }

@@ -5,8 +5,9 @@ use crate::bounds::Bounds;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// The sum over all parts that edges hold together; see [`super::Adjacency::layers`].
-pub(super) fn count(corners: &[[DVec3; 3]], edges: &[Edge]) -> u32 {
+/// The sum over all parts that edges hold together; see [`super::Adjacency::layers`]. A part that is not `rigid` may be convex now
+/// and not later.
+pub(super) fn count(corners: &[[DVec3; 3]], edges: &[Edge], rigid: bool) -> u32 {
     let is_closed = edges.iter().all(Edge::is_balanced);
     let mut roots = Roots::of(corners.len(), edges);
     let triangles = sorted((0..corners.len() as u32).map(|t| (roots.find(t), t)));
@@ -16,7 +17,7 @@ pub(super) fn count(corners: &[[DVec3; 3]], edges: &[Edge]) -> u32 {
     let parts = triangles.chunk_by(same).zip(edge_numbers.chunk_by(same));
     let layers = parts.map(|(triangles, part_edges)| {
         let part_edges = || part_edges.iter().map(|(_, i)| &edges[*i as usize]);
-        let is_convex = part_edges().all(Edge::is_balanced) && is_convex(corners, triangles, part_edges());
+        let is_convex = rigid && part_edges().all(Edge::is_balanced) && is_convex(corners, triangles, part_edges());
         let every = triangles.len() as u64;
         match (is_convex, is_closed) {
             (true, true) => 1,

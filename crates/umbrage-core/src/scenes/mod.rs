@@ -13,6 +13,7 @@ mod overlap;
 mod picket_fence;
 mod primitives;
 mod shapes;
+mod tentacles;
 mod terrain;
 mod tree;
 
@@ -44,6 +45,7 @@ pub static SCENES: &[SceneEntry] = &[
     contact::ENTRY,
     overlap::ENTRY,
     terrain::ENTRY,
+    tentacles::ENTRY,
 ];
 
 /// The scene called `id`.

@@ -1,11 +1,12 @@
 //! glTF 2.0: `.gltf` with its files, and `.glb`.
 //!
-//! Read are nodes, meshes (triangles, strips, fans), skins in their rest pose, base-colour and roughness of materials,
+//! Read are nodes, meshes (triangles, strips, fans), skins, animations of nodes, base-colour and roughness of materials,
 //! alpha masks, perspective cameras and `KHR_lights_punctual`. Whatever else changes the picture is noted. The `gltf`
 //! crate reads and validates the JSON; bytes are read here, with every range checked. (Source: Khronos, "glTF 2.0
 //! specification", version 2.0.1.)
 
 mod accessor;
+mod animation;
 mod appearance;
 mod buffers;
 mod nodes;
@@ -14,10 +15,9 @@ mod scenery;
 mod skin;
 
 use crate::error::{self, Error, Place};
-use crate::model::{Model, Part};
+use crate::model::{Hold, Model, Part};
 use accessor::Accessors;
 use appearance::Appearance;
-use glam::DAffine3;
 use gltf::{Document, Gltf};
 use nodes::Nodes;
 use std::collections::{BTreeSet, HashMap};
@@ -54,6 +54,13 @@ pub(crate) fn read(path: &Path) -> Result<Model, Error> {
     let nodes = Nodes::read(&file, &document)?;
     let mut appearance = Appearance::new(&document, &buffers);
     let mut model = Model::default();
+    model.rig.nodes.clone_from(&nodes.rig);
+    for skin in document.skins() {
+        model.rig.skins.push(skin::read(&file, &accessors, &nodes, &skin)?);
+    }
+    for animation in document.animations() {
+        model.rig.animations.push(animation::read(&mut file, &accessors, &nodes, &animation)?);
+    }
     // Primitives without a skin are shared by all nodes that show their mesh.
     let mut shared: HashMap<(usize, usize), Option<usize>> = HashMap::new();
 
@@ -71,12 +78,13 @@ pub(crate) fn read(path: &Path) -> Result<Model, Error> {
             let uv_set = appearance::uv_set(&primitive.material());
             let key = (mesh.index(), primitive.index());
             let read = |file: &mut File<'_>| primitive::read(file, &accessors, &mesh, &primitive, uv_set);
-            let (mesh, model_from_mesh) = match node.skin() {
+            let (mesh, hold) = match node.skin() {
                 Some(skin) => {
                     let Some(mut skinned) = read(&mut file)? else { continue };
-                    skin::apply(&mut file, &accessors, &nodes, &skin, &primitive, &mut skinned)?;
+                    skin::read_weights(&file, &accessors, &model.rig.skins[skin.index()], &primitive, &mut skinned)?;
+                    skin::check_pose(&file, &skinned, &model.rig.joints_at(skin.index(), None))?;
                     model.meshes.push(skinned);
-                    (model.meshes.len() - 1, DAffine3::IDENTITY)
+                    (model.meshes.len() - 1, Hold::Skin(skin.index()))
                 }
                 None => {
                     let index = match shared.get(&key) {
@@ -91,10 +99,10 @@ pub(crate) fn read(path: &Path) -> Result<Model, Error> {
                         }
                     };
                     let Some(index) = index else { continue };
-                    (index, model_from_node)
+                    (index, Hold::Node(nodes.place(node.index())))
                 }
             };
-            model.parts.push(Part { mesh, material, model_from_mesh });
+            model.parts.push(Part { mesh, material, hold });
         }
     }
     (model.materials, model.textures) = appearance.into_parts();

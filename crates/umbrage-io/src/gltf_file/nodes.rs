@@ -2,11 +2,17 @@
 
 use super::File;
 use crate::Error;
-use glam::{DAffine3, DMat4, Vec4};
+use glam::{DAffine3, DMat4, DQuat, DVec3, DVec4, Vec4};
+use gltf::scene::Transform;
 use gltf::{Document, Node};
+use umbrage_core::rig::{self, Local, Parts};
 
 /// Where every node stands in the model.
 pub(super) struct Nodes {
+    /// Parents before children.
+    pub rig: Vec<rig::Node>,
+    /// The place of a node of the file in `rig`.
+    place: Vec<usize>,
     model_from_node: Vec<DAffine3>,
 }
 
@@ -20,28 +26,36 @@ impl Nodes {
                 return Err(file.error(format!("node {}", child.index()), "is the child of two nodes"));
             }
         }
-        let mut transforms = vec![None; nodes.len()];
+        let mut places = vec![None; nodes.len()];
+        let mut rig: Vec<rig::Node> = Vec::with_capacity(nodes.len());
         // A stack, since files may nest deeper than calls can.
         let roots = nodes.iter().filter(|n| !is_child[n.index()]);
-        let mut stack: Vec<(Node<'_>, DAffine3)> = roots.map(|n| (n.clone(), DAffine3::IDENTITY)).collect();
-        while let Some((node, model_from_parent)) = stack.pop() {
-            let model_from_node = model_from_parent * transform(file, &node)?;
-            transforms[node.index()] = Some(model_from_node);
-            stack.extend(node.children().map(|child| (child, model_from_node)));
+        let mut stack: Vec<(Node<'_>, Option<usize>)> = roots.map(|n| (n.clone(), None)).collect();
+        while let Some((node, parent)) = stack.pop() {
+            let own = rig.len();
+            rig.push(rig::Node { parent, local: local(file, &node)? });
+            places[node.index()] = Some(own);
+            stack.extend(node.children().map(|child| (child, Some(own))));
         }
         // Every node has at most one parent here, so what no root leads to goes around in circles.
-        let reached = |(index, transform): (usize, Option<DAffine3>)| {
-            transform.ok_or_else(|| {
+        let reached = |(index, place): (usize, Option<usize>)| {
+            place.ok_or_else(|| {
                 file.error(format!("node {index}"), "is its own ancestor").remedy("take it out of its own children")
             })
         };
-        let model_from_node = transforms.into_iter().enumerate().map(reached).collect::<Result<_, _>>()?;
-        Ok(Self { model_from_node })
+        let place = places.into_iter().enumerate().map(reached).collect::<Result<_, _>>()?;
+        let model_from_node = rig::place(&rig, rig.iter().map(|n| n.local));
+        Ok(Self { rig, place, model_from_node })
     }
 
-    /// Places what the node holds.
+    /// The place of a node of the file in the rig.
+    pub fn place(&self, index: usize) -> usize {
+        self.place[index]
+    }
+
+    /// Places what the node holds, at rest.
     pub fn model_from_node(&self, index: usize) -> DAffine3 {
-        self.model_from_node[index]
+        self.model_from_node[self.place[index]]
     }
 
     /// The nodes of the default scene, or else of the first one, or else all of them; parents before children.
@@ -49,7 +63,7 @@ impl Nodes {
         let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) else {
             return document.nodes().collect();
         };
-        let mut seen = vec![false; self.model_from_node.len()];
+        let mut seen = vec![false; self.place.len()];
         let mut shown = Vec::new();
         let mut stack: Vec<Node<'a>> = scene.nodes().collect();
         stack.reverse();
@@ -67,7 +81,7 @@ impl Nodes {
 }
 
 /// A node's own transform, checked.
-fn transform(file: &File<'_>, node: &Node<'_>) -> Result<DAffine3, Error> {
+fn local(file: &File<'_>, node: &Node<'_>) -> Result<Local, Error> {
     let columns = node.transform().matrix().map(Vec4::from);
     let finite = columns.iter().all(|c| c.is_finite() && c.abs().max_element() < 1e15);
     let affine = columns.map(|c| c.w) == [0.0, 0.0, 0.0, 1.0];
@@ -75,6 +89,18 @@ fn transform(file: &File<'_>, node: &Node<'_>) -> Result<DAffine3, Error> {
         let what = if finite { "its matrix is not affine" } else { "its transform is not finite" };
         return Err(file.error(format!("node {}", node.index()), what));
     }
-    let [x, y, z, w] = columns.map(|c| c.as_dvec4());
-    Ok(DAffine3::from_mat4(DMat4::from_cols(x, y, z, w)))
+    Ok(match node.transform() {
+        Transform::Matrix { .. } => {
+            let [x, y, z, w] = columns.map(|c| c.as_dvec4());
+            Local::Matrix(DAffine3::from_mat4(DMat4::from_cols(x, y, z, w)))
+        }
+        Transform::Decomposed { translation, rotation, scale } => {
+            let rotation = DVec4::from_array(rotation.map(f64::from)).try_normalize();
+            Local::Parts(Parts {
+                translation: DVec3::from_array(translation.map(f64::from)),
+                rotation: rotation.map_or(DQuat::IDENTITY, DQuat::from_vec4),
+                scale: DVec3::from_array(scale.map(f64::from)),
+            })
+        }
+    })
 }

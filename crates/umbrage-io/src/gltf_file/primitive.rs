@@ -65,6 +65,7 @@ pub(super) fn read(
         normals: normals.into_iter().map(|n| Vec3::from(n).try_normalize().unwrap_or(Vec3::Y)).collect(),
         positions,
         uvs,
+        ..Mesh::default()
     };
     mesh.generate_normals_if_absent();
     Ok(Some(mesh))

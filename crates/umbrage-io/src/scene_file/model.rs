@@ -7,9 +7,13 @@ use crate::model::{Bases, Model, Placement};
 use glam::{DAffine3, DMat3, DVec3};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use umbrage_core::rig::Moment;
 use umbrage_core::{Instance, Material, Mesh, Scene, primitive};
 
 const COMMON: [&str; 8] = ["path", "primitive", "translate", "rotate", "scale", "casts", "receives", "material"];
+
+/// Keys of model files.
+const OF_FILES: [&str; 2] = ["animation", "time"];
 
 /// Every primitive with its own keys.
 const PRIMITIVES: [(&str, &[&str]); 6] = [
@@ -61,12 +65,13 @@ impl<'a> Models<'a> {
         let (path, primitive) = (table.get("path"), table.get("primitive"));
         let own_keys = match &primitive {
             Some(primitive) => primitive_keys(primitive)?,
-            None => &[],
+            None => &OF_FILES[..],
         };
         table.check_keys(&[&COMMON, own_keys])?;
         let mut placement = Placement {
             model: index,
             world_from_model: transform(table)?,
+            moment: None,
             casts: table.get_or("casts", true, Value::bool)?,
             receives: table.get_or("receives", true, Value::bool)?,
             material: table
@@ -76,7 +81,7 @@ impl<'a> Models<'a> {
                 .map(|m| self.material(scene, m)),
         };
         match (path, primitive) {
-            (Some(path), None) => self.place_file(scene, &path, &placement),
+            (Some(path), None) => self.place_file(scene, &path, table, placement),
             (None, Some(primitive)) => {
                 let (shape, size) = read_primitive(table, primitive.string()?)?;
                 placement.world_from_model *= DAffine3::from_scale(size);
@@ -108,12 +113,19 @@ impl<'a> Models<'a> {
             material,
             model: placement.model,
             world_from_mesh: placement.world_from_model,
+            pose: None,
             casts: placement.casts,
             receives: placement.receives,
         });
     }
 
-    fn place_file(&mut self, scene: &mut Scene, path: &Value<'_>, placement: &Placement) -> Result<(), Error> {
+    fn place_file(
+        &mut self,
+        scene: &mut Scene,
+        path: &Value<'_>,
+        table: &Table<'_>,
+        mut placement: Placement,
+    ) -> Result<(), Error> {
         let file = self.dir.join(path.string()?);
         // The same file may be named in several ways.
         let key = file.canonicalize().unwrap_or_else(|_| file.clone());
@@ -128,10 +140,34 @@ impl<'a> Models<'a> {
             self.files.insert(key.clone(), (model, bases));
         }
         if let Some((model, bases)) = self.files.get(&key) {
-            model.place(scene, *bases, placement);
+            placement.moment = read_moment(table, model)?;
+            if placement.moment.is_none() {
+                self.notes.extend(model.rest_note(&file).filter(|note| !self.notes.contains(note)));
+            }
+            model.place(scene, *bases, &placement);
         }
         Ok(())
     }
+}
+
+/// The moment of an animation that a model is frozen in.
+fn read_moment(table: &Table<'_>, model: &Model) -> Result<Option<Moment>, Error> {
+    let Some(chosen) = table.get("animation") else {
+        return match table.get("time") {
+            None => Ok(None),
+            Some(time) => Err(time.error("is that of an animation").remedy("choose one with `animation`")),
+        };
+    };
+    let name = chosen.string()?;
+    let animations = &model.rig.animations;
+    let Some(animation) = animations.iter().position(|a| a.name == name) else {
+        let error = chosen.error(format!("`{name}` is not in the model"));
+        return Err(match animations[..] {
+            [] => error.remedy("there is no animation in it: remove the key"),
+            _ => error.did_you_mean(name, animations.iter().map(|a| a.name.as_str())),
+        });
+    };
+    Ok(Some(Moment { animation, time_s: table.get_or("time", 0.0, Value::number)? }))
 }
 
 impl Shape {

@@ -1,9 +1,9 @@
 //! Edges and planes of the meshes on the GPU, for techniques that extrude silhouettes.
 
-use super::{Casters, eye_tree::EyeTree};
+use super::{Casters, eye_tree::EyeTree, poses};
 use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{error::Error, gpu::Gpu, shader::shader_struct};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 use umbrage_core::adjacency::{Adjacency, NONE, without_copies};
 use umbrage_core::{Mesh, glam::Vec4};
 
@@ -25,12 +25,17 @@ const NO_TRIANGLE: u32 = 0x7fff_ffff;
 /// Bit of `Edge::second`: both triangles run along the edge the same way.
 const SAME_DIRECTION: u32 = 0x8000_0000;
 
+/// The plane of a triangle that no edge has, such as a copy of another one.
+const LEFT_OUT: Vec4 = Vec4::new(0.0, 0.0, 0.0, -1.0);
+
 /// Of all meshes of the scene, made once and shared by every light.
 pub(crate) struct Edges {
     /// As `wgsl/edges.wgsl` declares it, for compute.
     pub find: wgpu::BindGroup,
     /// As `wgsl/extrude.wgsl` declares it, for drawing.
     pub draw: wgpu::BindGroup,
+    /// What remakes planes of posed meshes, where there are any.
+    pub pose: Option<wgpu::BindGroup>,
     /// Most shadows that one point can be in, whichever casters are drawn.
     pub layers: u32,
     meshes: Vec<MeshEdges>,
@@ -39,7 +44,7 @@ pub(crate) struct Edges {
 
 /// The edges of one mesh and where they lie in the shared buffers.
 pub(crate) struct MeshEdges {
-    pub adjacency: Adjacency,
+    pub adjacency: Arc<Adjacency>,
     pub first_edge: u32,
     /// Planes lie in the order of the mesh's own triangles.
     pub first_triangle: u32,
@@ -61,20 +66,25 @@ impl MeshEdges {
 
 impl Edges {
     pub(super) fn new(gpu: &Gpu, casters: &Casters) -> Result<Self, Error> {
-        let (mut edges, mut planes, mut meshes) = (Vec::<Edge>::new(), Vec::<Vec4>::new(), Vec::new());
-        for part in &casters.meshes {
-            let adjacency = Adjacency::of(&without_copies(&part.mesh));
+        let (mut edges, mut planes, mut meshes) = (Vec::<Edge>::new(), Vec::<Vec4>::new(), Vec::<MeshEdges>::new());
+        for (number, part) in casters.meshes.iter().enumerate() {
+            let adjacency = match casters.poses.source(number) {
+                Some(source) => Arc::clone(&meshes[source].adjacency),
+                None => Arc::new(Adjacency::of(&without_copies(&part.mesh))),
+            };
             let (first_edge, first_triangle) = (edges.len() as u32, planes.len() as u32);
-            let number = |t: u32| if t == NONE { NO_TRIANGLE } else { first_triangle + adjacency.numbers[t as usize] };
+            let triangle =
+                |t: u32| if t == NONE { NO_TRIANGLE } else { first_triangle + adjacency.numbers[t as usize] };
             edges.extend(adjacency.edges.iter().map(|e| Edge {
                 start: part.base_vertex + e.vertices[0],
                 end: part.base_vertex + e.vertices[1],
-                first: number(e.triangles[0]),
-                second: number(e.triangles[1]) | if e.same_direction { SAME_DIRECTION } else { 0 },
+                first: triangle(e.triangles[0]),
+                second: triangle(e.triangles[1]) | if e.same_direction { SAME_DIRECTION } else { 0 },
             }));
             let triangle_count = part.mesh.triangle_count() as u32;
-            planes.resize((first_triangle + triangle_count) as usize, Vec4::ZERO);
-            for (plane, &t) in adjacency.planes.iter().zip(&adjacency.numbers) {
+            planes.resize((first_triangle + triangle_count) as usize, LEFT_OUT);
+            let own = casters.poses.planes(number, &adjacency).unwrap_or(&adjacency.planes);
+            for (plane, &t) in own.iter().zip(&adjacency.numbers) {
                 planes[(first_triangle + t) as usize] = *plane;
             }
             meshes.push(MeshEdges { adjacency, first_edge, first_triangle, triangle_count, eye_tree: OnceLock::new() });
@@ -95,6 +105,7 @@ impl Edges {
             layers,
             find: bind(gpu, "edges", &Self::find_layout(gpu), &of_edges),
             draw: bind(gpu, "edges", &Self::draw_layout(gpu), &[&of_edges[..], &of_vertices].concat()),
+            pose: (!casters.poses.is_empty()).then(|| poses::planes_group(gpu, &casters.indices, &planes)),
             meshes,
             bytes: edges.size() + planes.size(),
         })

@@ -134,6 +134,8 @@ impl Renderer {
         let camera = camera.view(width, height);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let mut passes = self.recorder.begin(&mut encoder);
+        passes.owner("poses");
+        self.casters.record_poses(&mut passes);
         passes.owner("gbuffer");
         self.gbuffer.record(&self.gpu, &mut passes, &self.casters, &camera, self.ambient);
         let scene = Visible { camera, receivers: &self.receivers, casters: &self.casters, textures: &self.textures };

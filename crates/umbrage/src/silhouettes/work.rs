@@ -94,11 +94,13 @@ impl Work {
         self.counts = [0; 3];
         for (i, throw) in throws.iter().enumerate() {
             let of = self.casters[i];
-            let mesh = edges.of_mesh(casters.placed()[throw.place as usize].mesh);
+            let number = casters.placed()[throw.place as usize].mesh;
+            let mesh = edges.of_mesh(number);
+            let planes = casters.planes(number, mesh);
             let light = Vec4::from_array(of.light);
             let part = if throw.z_fail { Part::FailSides } else { Part::PassSides };
             for (slot, edge) in (of.edge_chunk * CHUNK..).zip(&mesh.adjacency.edges) {
-                let times = multiplicity(edge, &mesh.adjacency.planes, light, throw.rule);
+                let times = multiplicity(edge, planes, light, throw.rule);
                 if times != 0 {
                     let twice = times.abs() == 2;
                     let entry = slot << 2 | u32::from(twice) << 1 | u32::from(times < 0);
@@ -109,7 +111,7 @@ impl Work {
             if !throw.z_fail || !has_chunks || of.triangle_chunk < self.edge_chunks {
                 continue;
             }
-            for (&number, plane) in mesh.adjacency.numbers.iter().zip(&mesh.adjacency.planes) {
+            for (&number, plane) in mesh.adjacency.numbers.iter().zip(planes) {
                 let f = facing(*plane, light);
                 if plane.truncate() != Vec3::ZERO && !(f > 0 && throw.rule == Rule::Away) {
                     self.push(Part::Caps, (of.triangle_chunk * CHUNK + number) << 2 | u32::from(f < 0), 1);

@@ -45,8 +45,12 @@ pub fn against_truth(
     size: (u32, u32),
     samples: u32,
 ) -> Scores {
-    let mut renderer = renderer(gpu, scene, light, id, set, size);
-    let produced = visibility(&mut renderer, scene);
+    score_frame(&mut renderer(gpu, scene, light, id, set, size), scene, light, size, samples)
+}
+
+/// The same for a renderer at hand that shows the light, for what it draws now.
+pub fn score_frame(renderer: &mut Renderer, scene: &Scene, light: usize, size: (u32, u32), samples: u32) -> Scores {
+    let produced = visibility(renderer, scene);
     let tracer = Tracer::new(scene);
     let geometry = tracer.geometry(&scene.camera, size.0, size.1);
     let options = Options { samples, ..Options::default() };

@@ -7,6 +7,7 @@ mod golden;
 mod host;
 mod layouts;
 mod penumbra;
+mod poses;
 mod robust;
 mod shared_references;
 mod steady;

@@ -176,6 +176,9 @@ impl Selection {
 
     /// Adds the caster's shadows that the eye is in; false where that can't be told for sure.
     fn count_from_eye(&mut self, s: &Situation<'_>, placed: &Placed, mesh: &MeshEdges, rule: Rule) -> bool {
+        if placed.posed {
+            return false;
+        }
         self.eye_counted += 1;
         let Some(Sides { mesh_from_world: to_mesh, .. }) = &placed.sides else { return false };
         let light = s.light.truncate();

@@ -108,7 +108,12 @@ impl<'a> Situation<'a> {
     pub fn finite_reach(&self, range: f64, placed: &Placed, mesh: &MeshEdges) -> f64 {
         let light = self.light.truncate();
         let near = light.clamp(placed.bounds.min, placed.bounds.max).distance(light);
-        let half_edge = 0.5 * mesh.adjacency.longest_edge * largest_stretch(&placed.world_from_mesh.matrix3);
+        let longest_edge = if placed.posed {
+            placed.bounds.size().length()
+        } else {
+            mesh.adjacency.longest_edge * largest_stretch(&placed.world_from_mesh.matrix3)
+        };
+        let half_edge = 0.5 * longest_edge;
         // A triangle whose edges are seen under an angle fits into a cone that is 2 / √3 times as wide.
         let half_angle = (half_edge / near).asin() * 2.0 / 3.0_f64.sqrt();
         if half_angle < 1.3 { range / half_angle.cos() * 1.001 } else { 0.0 }

@@ -14,6 +14,7 @@ mod lights;
 mod meshes;
 mod models;
 mod moving;
+mod poses;
 mod random;
 mod references;
 mod transforms;
@@ -129,11 +130,14 @@ impl Bench {
         &mut self.renderers[i].1
     }
 
-    /// Moves the instances to where `scene` has them; the truth does not follow.
+    /// Moves and bends the instances to how `scene` has them; the truth does not follow.
     pub fn move_all(&mut self, gpu: &Gpu, scene: &Scene) {
         for (_, renderer) in &mut self.renderers {
             for (i, instance) in scene.instances.iter().enumerate() {
                 renderer.casters_mut().move_instance(gpu, i, &instance.world_from_mesh);
+                if let Some(joints) = scene.joints(instance) {
+                    renderer.casters_mut().set_pose(i, &joints);
+                }
             }
         }
     }

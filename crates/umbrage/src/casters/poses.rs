@@ -1,0 +1,346 @@
+//! Meshes that joints bend: every instance with a pose has vertices of its own in the shared buffers, which a compute pass fills
+//! when the pose changes. All techniques, and hosts, draw them like any others.
+
+use super::{Edges, MeshPart};
+use crate::fullscreen::{STORAGE, bind, layout};
+use crate::{error::Error, gpu::Gpu, passes::Passes, shader::Shader, shader::shader_struct};
+use std::sync::{Arc, OnceLock};
+use umbrage_core::adjacency::Adjacency;
+use umbrage_core::glam::{DAffine3, DVec3, Vec4};
+use umbrage_core::rig::JointBoxes;
+use umbrage_core::{Bounds, Mesh, Scene};
+
+/// Bends vertices; then makes planes of the triangles between them.
+pub(crate) const SHADERS: &[Shader] = &[
+    Shader {
+        name: "poses",
+        parts: &[POSES_WGSL, include_str!("../wgsl/pose_vertices.wgsl")],
+        layouts: &[PosedMesh::LAYOUT, JointRows::LAYOUT, HeldBy::LAYOUT],
+    },
+    Shader {
+        name: "planes of poses",
+        parts: &[POSES_WGSL, include_str!("../wgsl/pose_planes.wgsl")],
+        layouts: &[PosedMesh::LAYOUT],
+    },
+];
+
+const POSES_WGSL: &str = include_str!("../wgsl/poses.wgsl");
+
+shader_struct! {
+    /// A mesh to bend, see `wgsl/poses.wgsl`.
+    pub(crate) struct PosedMesh {
+        bound_vertex: u32,
+        vertex: u32,
+        vertex_count: u32,
+        first_start: u32,
+        first_joint: u32,
+        first_index: u32,
+        first_triangle: u32,
+        triangle_count: u32,
+        center: [f32; 3],
+        pad: u32,
+    }
+}
+
+shader_struct! {
+    /// What a joint does to the mesh as it was bound.
+    pub(crate) struct JointRows {
+        row0: [f32; 4],
+        row1: [f32; 4],
+        row2: [f32; 4],
+    }
+}
+
+shader_struct! {
+    /// A joint that holds a vertex.
+    pub(crate) struct HeldBy {
+        joint: u32,
+        weight: f32,
+    }
+}
+
+/// The instances that have a pose.
+pub(super) struct Poses {
+    /// Number of meshes of the scene; those of posed instances follow, one each.
+    scene_meshes: usize,
+    posed: Vec<Posed>,
+    device: Option<Device>,
+    /// What changed, as it goes to the GPU. Keep their memory.
+    work: Vec<PosedMesh>,
+    joints: Vec<JointRows>,
+}
+
+/// One of them.
+struct Posed {
+    /// Its place in [`Scene::instances`].
+    instance: usize,
+    /// Index of the mesh as it was bound.
+    source: usize,
+    bound: Option<Arc<Mesh>>,
+    boxes: Arc<JointBoxes>,
+    joints: Vec<DAffine3>,
+    changed: bool,
+    /// Its numbers for the GPU, the planes apart.
+    work: PosedMesh,
+    /// Made when the CPU asks for them.
+    planes: OnceLock<Vec<Vec4>>,
+}
+
+/// What is on the GPU.
+struct Device {
+    vertices: wgpu::ComputePipeline,
+    planes: wgpu::ComputePipeline,
+    work: wgpu::Buffer,
+    joints: wgpu::Buffer,
+    bind_group: wgpu::BindGroup,
+    bytes: u64,
+}
+
+/// Threads of a workgroup.
+const GROUP: u32 = 64;
+
+impl Poses {
+    pub fn new(scene: &Scene) -> Self {
+        let mut boxes: Vec<Option<Arc<JointBoxes>>> = vec![None; scene.meshes.len()];
+        let mut posed = Vec::new();
+        for (number, instance) in scene.instances.iter().enumerate() {
+            let Some(joints) = scene.joints(instance) else { continue };
+            let of_mesh = &mut boxes[instance.mesh];
+            let made = of_mesh.get_or_insert_with(|| Arc::new(JointBoxes::of(&scene.meshes[instance.mesh])));
+            posed.push(Posed {
+                instance: number,
+                source: instance.mesh,
+                bound: None,
+                boxes: made.clone(),
+                joints,
+                changed: false,
+                work: PosedMesh::default(),
+                planes: OnceLock::new(),
+            });
+        }
+        Self { scene_meshes: scene.meshes.len(), posed, device: None, work: Vec::new(), joints: Vec::new() }
+    }
+
+    /// For each of them the number of the mesh it is made of, and that mesh bent.
+    pub fn meshes(&self, scene: &Scene) -> Vec<(usize, Mesh)> {
+        self.posed.iter().map(|p| (p.source, scene.meshes[p.source].posed(&p.joints))).collect()
+    }
+
+    /// The number of an instance's own mesh, where it has a pose.
+    pub fn mesh_of(&self, instance: usize) -> Option<usize> {
+        self.posed.binary_search_by_key(&instance, |p| p.instance).ok().map(|i| self.scene_meshes + i)
+    }
+
+    /// True where no instance has one.
+    pub fn is_empty(&self) -> bool {
+        self.posed.is_empty()
+    }
+
+    /// Of a posed instance's own mesh, the mesh of the scene that it is made of.
+    pub fn source(&self, mesh: usize) -> Option<usize> {
+        self.get(mesh).map(|p| p.source)
+    }
+
+    fn get(&self, mesh: usize) -> Option<&Posed> {
+        self.posed.get(mesh.checked_sub(self.scene_meshes)?)
+    }
+
+    /// A box that surely holds such a mesh as it is bent.
+    pub fn bounds(&self, mesh: usize) -> Bounds {
+        self.get(mesh).map_or(Bounds::EMPTY, |p| p.boxes.posed(&p.joints))
+    }
+
+    /// Changes a pose; false where it is the same, or none.
+    pub fn set(&mut self, mesh: usize, joints: &[DAffine3]) -> bool {
+        let Some(posed) = mesh.checked_sub(self.scene_meshes).and_then(|i| self.posed.get_mut(i)) else { return false };
+        let new = || joints.iter().copied().chain(std::iter::repeat(DAffine3::IDENTITY));
+        let is_same = posed.joints.iter().zip(new()).all(|(joint, new)| *joint == new);
+        if is_same || joints.iter().any(|j| !j.is_finite()) {
+            return false;
+        }
+        posed.joints.iter_mut().zip(new()).for_each(|(joint, new)| *joint = new);
+        posed.changed = true;
+        posed.planes = OnceLock::new();
+        true
+    }
+
+    /// Planes of a bent mesh, by the CPU; `None` for meshes of the scene.
+    pub fn planes(&self, mesh: usize, adjacency: &Adjacency) -> Option<&[Vec4]> {
+        let posed = self.get(mesh)?;
+        let bound = posed.bound.as_ref()?;
+        Some(posed.planes.get_or_init(|| adjacency.planes_in(&bound.posed(&posed.joints))))
+    }
+
+    /// Uploads what never changes. `meshes` are those of the scene and the posed ones; `vertices` their positions and
+    /// attributes.
+    pub fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene,
+        meshes: &[MeshPart],
+        vertices: [&wgpu::Buffer; 2],
+    ) -> Result<(), Error> {
+        if self.posed.is_empty() {
+            return Ok(());
+        }
+        let (mut starts, mut held): (Vec<u32>, Vec<HeldBy>) = (vec![0], Vec::new());
+        let mut first_start = vec![0; self.scene_meshes];
+        for (mesh, first) in scene.meshes.iter().zip(&mut first_start).filter(|(m, _)| !m.weights.is_empty()) {
+            let base = held.len() as u32;
+            *first = starts.len() as u32 - 1;
+            held.extend(mesh.weights.influences().iter().map(|i| HeldBy { joint: i.joint, weight: i.weight }));
+            let ends = (0..mesh.positions.len()).scan(0, |end, vertex| {
+                *end = mesh.weights.ends().get(vertex).copied().unwrap_or(*end);
+                Some(base + *end)
+            });
+            starts.extend(ends);
+        }
+        for (posed, part) in self.posed.iter_mut().zip(&meshes[self.scene_meshes..]) {
+            let source = &meshes[posed.source];
+            posed.work = PosedMesh {
+                bound_vertex: source.base_vertex,
+                vertex: part.base_vertex,
+                vertex_count: if source.mesh.weights.is_empty() { 0 } else { source.mesh.positions.len() as u32 },
+                first_start: first_start[posed.source],
+                first_index: source.first_index,
+                ..PosedMesh::default()
+            };
+            posed.bound = Some(source.mesh.clone());
+        }
+        let joints: usize = self.posed.iter().map(|p| p.joints.len()).sum();
+        self.check(gpu, vertices, joints)?;
+        self.device = Some(Device::new(gpu, self.posed.len(), joints, &starts, &held, vertices));
+        Ok(())
+    }
+
+    /// Whether all fits the adapter, and what a dispatch can do.
+    fn check(&self, gpu: &Gpu, vertices: [&wgpu::Buffer; 2], joints: usize) -> Result<(), Error> {
+        let limits = gpu.device.limits();
+        let groups = u64::from(limits.max_compute_workgroups_per_dimension);
+        let largest = self.posed.iter().map(|p| p.work.vertex_count).max().unwrap_or(0);
+        let triangles = self.posed.iter().filter_map(|p| p.bound.as_ref()).map(|m| m.triangle_count() as u64).max();
+        let binding = limits.max_storage_buffer_binding_size;
+        for (what, size, limit) in [
+            ("instances that have a pose", self.posed.len() as u64, groups),
+            ("the vertices of a mesh with joints", u64::from(largest), groups * u64::from(GROUP)),
+            ("the triangles of a mesh with joints", triangles.unwrap_or(0), groups * u64::from(GROUP)),
+            ("the joints of all poses", joints as u64 * size_of::<JointRows>() as u64, binding),
+            ("the vertices of a scene with poses", vertices[0].size().max(vertices[1].size()), binding),
+        ] {
+            if size > limit {
+                return Err(Error::Size { what: what.into(), size, limit });
+            }
+        }
+        Ok(())
+    }
+
+    /// Bends what has changed, and remakes its planes where there are any.
+    pub fn record(&mut self, passes: &mut Passes<'_>, edges: Option<&Edges>) {
+        let Some(device) = self.device.as_ref().filter(|_| self.posed.iter().any(|p| p.changed)) else { return };
+        self.work.clear();
+        self.joints.clear();
+        let (mut most_vertices, mut most_triangles) = (0, 0);
+        for (posed, mesh) in self.posed.iter_mut().zip(self.scene_meshes as u32..).filter(|(p, _)| p.changed) {
+            posed.changed = false;
+            let mut work = PosedMesh { first_joint: self.joints.len() as u32, ..posed.work };
+            if let Some(edges) = edges {
+                let of_mesh = edges.of_mesh(mesh);
+                work.first_triangle = of_mesh.first_triangle;
+                work.triangle_count = of_mesh.triangle_count;
+                work.center = of_mesh.adjacency.center.as_vec3().to_array();
+            }
+            most_vertices = most_vertices.max(work.vertex_count);
+            most_triangles = most_triangles.max(work.triangle_count);
+            self.joints.extend(posed.joints.iter().map(rows));
+            self.work.push(work);
+        }
+        passes.upload(&device.work, bytemuck::cast_slice(&self.work));
+        passes.upload(&device.joints, bytemuck::cast_slice(&self.joints));
+        let mut pass = passes.compute("poses");
+        pass.set_bind_group(0, &device.bind_group, &[]);
+        let meshes = self.work.len() as u32;
+        if most_vertices > 0 {
+            pass.set_pipeline(&device.vertices);
+            pass.dispatch_workgroups(most_vertices.div_ceil(GROUP), meshes, 1);
+        }
+        if let Some(planes) = edges.and_then(|e| e.pose.as_ref()).filter(|_| most_triangles > 0) {
+            pass.set_bind_group(1, planes, &[]);
+            pass.set_pipeline(&device.planes);
+            pass.dispatch_workgroups(most_triangles.div_ceil(GROUP), meshes, 1);
+        }
+    }
+
+    /// GPU memory.
+    pub fn bytes(&self) -> u64 {
+        self.device.as_ref().map_or(0, |d| d.bytes)
+    }
+}
+
+fn rows(joint: &DAffine3) -> JointRows {
+    let m = joint.matrix3.transpose();
+    let t = joint.translation;
+    let row = |axis: DVec3, t: f64| axis.extend(t).as_vec4().to_array();
+    JointRows { row0: row(m.x_axis, t.x), row1: row(m.y_axis, t.y), row2: row(m.z_axis, t.z) }
+}
+
+/// A storage buffer that is written.
+const WRITTEN: wgpu::BindingType = wgpu::BindingType::Buffer {
+    ty: wgpu::BufferBindingType::Storage { read_only: false },
+    has_dynamic_offset: false,
+    min_binding_size: None,
+};
+
+/// The bind group of [`Edges`] that planes are remade through: indices and planes.
+pub(super) fn planes_group(gpu: &Gpu, indices: &wgpu::Buffer, planes: &wgpu::Buffer) -> wgpu::BindGroup {
+    bind(gpu, "planes of poses", &planes_layout(gpu), &[indices.as_entire_binding(), planes.as_entire_binding()])
+}
+
+fn planes_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    layout(gpu, "planes of poses", wgpu::ShaderStages::COMPUTE, &[STORAGE, WRITTEN])
+}
+
+impl Device {
+    fn new(
+        gpu: &Gpu,
+        posed: usize,
+        joints: usize,
+        starts: &[u32],
+        held: &[HeldBy],
+        vertices: [&wgpu::Buffer; 2],
+    ) -> Self {
+        let own = [STORAGE, STORAGE, STORAGE, STORAGE, WRITTEN, WRITTEN];
+        let own = layout(gpu, "poses", wgpu::ShaderStages::COMPUTE, &own);
+        let planes = planes_layout(gpu);
+        let pipeline = |shader: &Shader, entry, groups: &[Option<&wgpu::BindGroupLayout>]| {
+            let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                bind_group_layouts: groups,
+                ..Default::default()
+            });
+            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(entry),
+                layout: Some(&pipeline_layout),
+                module: &shader.module(gpu),
+                entry_point: Some(entry),
+                compilation_options: Default::default(),
+                cache: None,
+            })
+        };
+        use wgpu::BufferUsages as Usage;
+        let work = gpu.buffer("poses", &vec![PosedMesh::default(); posed], Usage::STORAGE | Usage::COPY_DST);
+        let rows = gpu.buffer("joints", &vec![JointRows::default(); joints], Usage::STORAGE | Usage::COPY_DST);
+        let starts = gpu.buffer("where weights start", starts, Usage::STORAGE);
+        let held = gpu.buffer("weights", held, Usage::STORAGE);
+        let buffers = [&work, &rows, &starts, &held, vertices[0], vertices[1]].map(|b| b.as_entire_binding());
+        Self {
+            vertices: pipeline(&SHADERS[0], "pose_vertices", &[Some(&own)]),
+            planes: pipeline(&SHADERS[1], "pose_planes", &[Some(&own), Some(&planes)]),
+            bind_group: bind(gpu, "poses", &own, &buffers),
+            bytes: [&work, &rows, &starts, &held].iter().map(|b| b.size()).sum(),
+            work,
+            joints: rows,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
