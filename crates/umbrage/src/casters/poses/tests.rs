@@ -1,7 +1,7 @@
 //! Needs a graphics adapter.
 
 use crate::{Casters, Gpu, Recorder};
-use umbrage_core::glam::Vec3;
+use umbrage_core::glam::{DAffine3, Vec3};
 use umbrage_core::{Scene, scenes};
 
 fn read(gpu: &Gpu, buffer: &wgpu::Buffer) -> Vec<f32> {
@@ -80,7 +80,7 @@ fn what_is_no_pose_changes_nothing() {
     let mut casters = Casters::new(&gpu, &scene).unwrap();
     let bent = scene.instances.iter().position(|i| i.pose.is_some()).unwrap();
     let before = casters.all_bounds();
-    let nan = vec![umbrage_core::glam::DAffine3::NAN; 12];
+    let nan = vec![DAffine3::NAN; 12];
     for (instance, joints) in [(bent, &nan[..]), (0, &[]), (999, &[])] {
         casters.set_pose(instance, joints);
         assert_eq!(casters.all_bounds(), before, "instance {instance}");
