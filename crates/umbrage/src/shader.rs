@@ -43,10 +43,9 @@ pub const MOMENTS_PASSES: &str = include_str!("wgsl/moments_passes.wgsl");
 /// `wgsl/moments_lookup.wgsl`: group 2, filtered moments. After [`MAP_LOOKUP`] and [`MOMENTS_DEPTH`].
 pub const MOMENTS_LOOKUP: &str =
     concat!(include_str!("wgsl/moments_share.wgsl"), include_str!("wgsl/moments_lookup.wgsl"));
-/// `wgsl/moments_packed.wgsl`: moments of every width beside each other, for filters that follow the light's size. After
+/// `wgsl/moments_soft.wgsl`: filtered moments for filters that follow the light's size. After
 /// [`SOFT_TAPS`] and [`MOMENTS_DEPTH`].
-pub const MOMENTS_PACKED: &str =
-    concat!(include_str!("wgsl/moments_share.wgsl"), include_str!("wgsl/moments_packed.wgsl"));
+pub const MOMENTS_SOFT: &str = concat!(include_str!("wgsl/moments_share.wgsl"), include_str!("wgsl/moments_soft.wgsl"));
 
 /// One shader: plain WGSL modules, later ones using names of earlier ones.
 #[derive(Clone, Copy, Debug)]

@@ -5,16 +5,6 @@ use super::pipelines::{Pipelines, Step};
 use crate::fullscreen::target_texture;
 use crate::gpu::Gpu;
 
-/// Levels besides the finest.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Levels {
-    None,
-    /// Mip levels, for pixels that cover many texels.
-    Mips,
-    /// All in one, for look-ups at a level of each pixel's own, see `wgsl/moments_packed.wgsl`.
-    Packed,
-}
-
 /// What fills a layer of moments.
 pub(super) struct Layer {
     pub(super) passes: Vec<Pass>,
@@ -22,7 +12,7 @@ pub(super) struct Layer {
     pub(super) copies: Vec<Copy>,
 }
 
-/// A level that has been made, to its place among packed ones.
+/// A level that has been made, to its place among the others: see `wgsl/moments_share.wgsl`.
 pub(super) struct Copy {
     pub(super) from: wgpu::Texture,
     pub(super) level: u32,
@@ -45,8 +35,8 @@ pub(super) struct Made {
     pub(super) moments: wgpu::TextureView,
     /// Texels across the finest level.
     pub(super) side: u32,
-    /// Packed levels, the finest included.
-    pub(super) packed: u32,
+    /// The finest included.
+    pub(super) levels: u32,
     pub(super) layers: Vec<Layer>,
     pub(super) bytes: u64,
 }
@@ -66,7 +56,7 @@ struct Workshop<'a> {
     chain: Vec<wgpu::Texture>,
     /// For what is blurred across, of the moments' size.
     across: Option<wgpu::Texture>,
-    /// Levels after the finest, on their way to be packed.
+    /// Levels after the finest, on their way to their places.
     coarse: Option<wgpu::Texture>,
     moments: &'a wgpu::Texture,
 }
@@ -78,27 +68,26 @@ impl Made {
         uniforms: &wgpu::Buffer,
         maps: &wgpu::Texture,
         blur: &Blur,
-        levels: Levels,
+        coarser: bool,
     ) -> Self {
         let format = pipelines.format;
         let views = maps.depth_or_array_layers();
         let side = |level: u32| maps.width().div_ceil(1 << level);
         let scratch = |level| target_texture(gpu, "reduced moments", (side(level), side(level)), 1, format);
         let size = side(blur.level);
-        let all = (size / LEAST_SIZE).checked_ilog2().unwrap_or(0) + 1;
-        let packed = if levels == Levels::Packed { all } else { 1 };
-        let mips = if levels == Levels::Mips { all } else { 1 };
+        let levels = if coarser { (size / LEAST_SIZE).checked_ilog2().unwrap_or(0) + 1 } else { 1 };
         // Two views share a layer for their coarser levels.
-        let moments = levels_texture(gpu, format, size, views + if packed > 1 { views.div_ceil(2) } else { 0 }, mips);
+        let layers = views + if levels > 1 { views.div_ceil(2) } else { 0 };
+        let moments = levels_texture(gpu, format, size, layers, 1);
         let chain: Vec<_> = (AT_ONCE..blur.level).map(scratch).collect();
         let across = blur.has_passes().then(|| scratch(blur.level));
-        let coarse = (packed > 1).then(|| levels_texture(gpu, format, size / 2, 1, packed - 1));
+        let coarse = (levels > 1).then(|| levels_texture(gpu, format, size / 2, 1, levels - 1));
         let bytes = chain.iter().chain(&across).chain(&coarse).chain([&moments]).map(bytes_of).sum();
         let work = Workshop { gpu, pipelines, uniforms, maps, chain, across, coarse, moments: &moments };
         let layers = (0..views).map(|layer| work.layer(layer)).collect();
         let whole =
             wgpu::TextureViewDescriptor { dimension: Some(wgpu::TextureViewDimension::D2Array), ..Default::default() };
-        Self { maps: maps.clone(), moments: moments.create_view(&whole), side: size, packed, layers, bytes }
+        Self { maps: maps.clone(), moments: moments.create_view(&whole), side: size, levels, layers, bytes }
     }
 }
 
@@ -120,17 +109,16 @@ impl Workshop<'_> {
             add(Step::BlurAcross, &base, &across);
             add(Step::BlurDown, &across, &base);
         }
-        let mips = (1..self.moments.mip_level_count()).map(|level| view(self.moments, layer, level));
         let coarse = self.coarse.iter().flat_map(|t| (0..t.mip_level_count()).map(|level| view(t, 0, level)));
         let mut from = base;
-        for to in mips.chain(coarse) {
+        for to in coarse {
             add(Step::Mip, &from, &to);
             from = to;
         }
         Layer { passes, copies: self.copies(layer) }
     }
 
-    /// Where levels go: see `wgsl/moments_packed.wgsl`.
+    /// Where levels go: see `wgsl/moments_share.wgsl`.
     fn copies(&self, layer: u32) -> Vec<Copy> {
         let (side, views) = (self.moments.width(), self.maps.depth_or_array_layers());
         let copy = |from: &wgpu::Texture, level: u32| Copy {

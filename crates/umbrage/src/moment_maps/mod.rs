@@ -14,7 +14,6 @@ use crate::params::{Param, ParamKind, Settings};
 use crate::shader::{HostLayout, Shader, shader_struct};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
 use blur::Blur;
-pub(crate) use made::Levels;
 use made::Made;
 use pipelines::Pipelines;
 
@@ -103,7 +102,8 @@ impl Recipe {
 /// The stage that turns maps into moments.
 pub(crate) struct MomentStage {
     blur: Blur,
-    levels: Levels,
+    /// Makes levels besides the finest.
+    coarser: bool,
     /// For a filter that follows the light.
     taps: Option<TapStage>,
     pipelines: Pipelines,
@@ -119,17 +119,16 @@ pub(crate) struct MomentStage {
 impl MomentStage {
     /// With the filter of `size`, `radius` and `mips` of the settings.
     pub(crate) fn new(gpu: &Gpu, settings: &Settings, recipe: &Recipe) -> Self {
-        let levels = if settings.switch("mips") { Levels::Mips } else { Levels::None };
-        Self::make(gpu, settings, recipe, levels, None)
+        Self::make(gpu, settings, recipe, settings.switch("mips"), None)
     }
 
     /// With filters that follow the light, none narrower than `radius`. Their look-up finds taps and bounds before the moments, see
-    /// `wgsl/soft_taps.wgsl` and `wgsl/moments_packed.wgsl`.
+    /// `wgsl/soft_taps.wgsl` and `wgsl/moments_soft.wgsl`.
     pub(crate) fn soft(gpu: &Gpu, settings: &Settings, recipe: &Recipe, taps: Taps) -> Self {
-        Self::make(gpu, settings, recipe, Levels::Packed, Some(TapStage::light(gpu, taps, true)))
+        Self::make(gpu, settings, recipe, true, Some(TapStage::light(gpu, taps, true)))
     }
 
-    fn make(gpu: &Gpu, settings: &Settings, recipe: &Recipe, levels: Levels, taps: Option<TapStage>) -> Self {
+    fn make(gpu: &Gpu, settings: &Settings, recipe: &Recipe, coarser: bool, taps: Option<TapStage>) -> Self {
         let size = settings.int("size").clamp(1, i64::from(u32::MAX)) as u32;
         let blur = Blur::new(settings.float("radius"), size);
         let moments = wgpu::BindingType::Texture {
@@ -141,7 +140,7 @@ impl MomentStage {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         Self {
             blur,
-            levels,
+            coarser,
             taps,
             pipelines: Pipelines::new(gpu, recipe, &blur),
             layout: layout(gpu, "moments", wgpu::ShaderStages::FRAGMENT, &[tables, &[UNIFORM, moments]].concat()),
@@ -171,7 +170,7 @@ impl Stage for MomentStage {
             is_new = taps.prepare_tables(gpu, view, maps);
         }
         if self.made.as_ref().is_none_or(|m| m.maps != *texture) {
-            self.made = Some(Made::new(gpu, &self.pipelines, &self.uniforms, texture, &self.blur, self.levels));
+            self.made = Some(Made::new(gpu, &self.pipelines, &self.uniforms, texture, &self.blur, self.coarser));
             self.taken.clear();
             self.taken.resize(texture.depth_or_array_layers() as usize, (0, Moments::default()));
             is_new = true;
@@ -189,7 +188,7 @@ impl Stage for MomentStage {
             scale: (1_u32 << self.blur.level) as f32,
             variance: self.blur.variance as f32,
             side: made.side,
-            levels: made.packed,
+            levels: made.levels,
             views: made.layers.len() as u32,
         };
         Ok(())

@@ -10,7 +10,7 @@ struct Moments {
     scale: f32,
     // Of the filter along each axis, in texels of the map, squared.
     variance: f32,
-    // Of packed levels: texels across the finest, how many there are, and views in all.
+    // Texels across the finest level, how many levels there are, and views in all.
     side: u32,
     levels: u32,
     views: u32,

@@ -13,66 +13,61 @@ struct Spline {
     rows: vec3i,
     x: vec3f,
     y: vec3f,
-    // Texels of the map across one of the level.
-    width: f32,
 }
 
 fn spline_weights(f: f32) -> vec3f {
     return vec3f(0.5 * (0.5 - f) * (0.5 - f), 0.75 - f * f, 0.5 * (0.5 + f) * (0.5 + f));
 }
 
-fn spline_at(texel: vec2f, level: i32) -> Spline {
-    let width = moments.scale * f32(1u << u32(level));
-    let at = texel / width;
-    let last = vec2i(textureDimensions(moment_map, level)) - 1;
-    let middle = clamp(vec2i(at), vec2i(0), last);
+fn spline_at(texel: vec2f, level: Level) -> Spline {
+    let at = texel / level.width;
+    let middle = clamp(vec2i(at), vec2i(0), vec2i(level.last));
     let f = clamp(at - vec2f(middle) - 0.5, vec2f(-0.5), vec2f(0.5));
     let before = max(middle - 1, vec2i(0));
-    let after = min(middle + 1, last);
+    let after = min(middle + 1, vec2i(level.last));
     let columns = vec3i(before.x, middle.x, after.x);
     let rows = vec3i(before.y, middle.y, after.y);
-    return Spline(columns, rows, spline_weights(f.x), spline_weights(f.y), width);
+    return Spline(columns, rows, spline_weights(f.x), spline_weights(f.y));
 }
 
 // The mean place of what is looked up, texels of the map: the point itself but at the border.
-fn spline_place(s: Spline) -> vec2f {
-    return (vec2f(dot(s.x, vec3f(s.columns)), dot(s.y, vec3f(s.rows))) + 0.5) * s.width;
+fn spline_place(s: Spline, level: Level) -> vec2f {
+    return (vec2f(dot(s.x, vec3f(s.columns)), dot(s.y, vec3f(s.rows))) + 0.5) * level.width;
 }
 
-fn moments_at(column: i32, row: i32, layer: u32, level: i32) -> vec4f {
-    return from_stored(textureLoad(moment_map, vec2i(column, row), layer, level));
+fn moments_in_row(s: Spline, row: i32, level: Level) -> vec4f {
+    return s.x.x * moments_at(level, vec2i(s.columns.x, row))
+        + s.x.y * moments_at(level, vec2i(s.columns.y, row))
+        + s.x.z * moments_at(level, vec2i(s.columns.z, row));
 }
 
-fn moments_in_row(s: Spline, row: i32, layer: u32, level: i32) -> vec4f {
-    return s.x.x * moments_at(s.columns.x, row, layer, level)
-        + s.x.y * moments_at(s.columns.y, row, layer, level)
-        + s.x.z * moments_at(s.columns.z, row, layer, level);
+fn moments_on(s: Spline, level: Level) -> vec4f {
+    return s.y.x * moments_in_row(s, s.rows.x, level)
+        + s.y.y * moments_in_row(s, s.rows.y, level)
+        + s.y.z * moments_in_row(s, s.rows.z, level);
 }
 
-fn moments_on(s: Spline, layer: u32, level: i32) -> vec4f {
-    return s.y.x * moments_in_row(s, s.rows.x, layer, level)
-        + s.y.y * moments_in_row(s, s.rows.y, layer, level)
-        + s.y.z * moments_in_row(s, s.rows.z, layer, level);
+// The two levels that a level lies between, and how much of each is in it.
+struct Between {
+    levels: vec2u,
+    shares: vec2f,
 }
 
-// How much of level `i` is in what lies between two levels.
-fn share_of_level(level: f32, i: i32) -> f32 {
-    let last = f32(textureNumLevels(moment_map) - 1u);
-    return max(1.0 - abs(clamp(level, 0.0, last) - f32(i)), 0.0);
+fn levels_around(level: f32) -> Between {
+    let lower = u32(level);
+    let share = level - f32(lower);
+    return Between(vec2u(lower, min(lower + 1u, moments.levels - 1u)), vec2f(1.0 - share, share));
 }
 
-// Between two levels. They are gone through in order and each load is of one level for all pixels, since the software driver takes
-// the first of 2 × 2 pixels for all of them.
 fn moments_between(texel: vec2f, layer: u32, level: f32) -> Found {
+    let between = levels_around(level);
     var sum = vec4f(0.0);
     var offset = vec2f(0.0);
-    for (var i = 0; f32(i) < level + 1.0 && i < i32(textureNumLevels(moment_map)); i++) {
-        let share = share_of_level(level, i);
-        if share > 0.0 {
-            let s = spline_at(texel, i);
-            sum += share * moments_on(s, layer, i);
-            offset += share * (spline_place(s) - texel);
-        }
+    for (var i = 0; i < 2; i++) {
+        let one = level_at(layer, between.levels[i]);
+        let s = spline_at(texel, one);
+        sum += between.shares[i] * moments_on(s, one);
+        offset += between.shares[i] * (spline_place(s, one) - texel);
     }
     return Found(sum, offset);
 }
@@ -106,7 +101,8 @@ fn level_of_pixel(point: MapPoint, pixel: Pixel) -> f32 {
     }
     let side = texels_of_pixel(point, pixel) / (2.0 * moments.scale);
     // Not a number where a surface is seen edge-on.
-    return select(0.0, log2(side), side > 1.0 && side < 65536.0);
+    let level = select(0.0, log2(side), side > 1.0 && side < 65536.0);
+    return min(level, f32(moments.levels - 1u));
 }
 
 // Of the filter of a level, squared texels of the map along each axis.

@@ -5,7 +5,7 @@ use crate::depth_maps::{MapTechnique, TAP_LAYOUTS, Taps};
 use crate::moment_maps::{Coding, MomentStage, PASS_LAYOUTS, Recipe};
 use crate::shader::{
     FULLSCREEN, LIGHT_KERNEL, MAP_CELLS, MAP_LOOKUP, MAP_TAPS, MAP_VISIBILITY, MOMENTS_DEPTH, MOMENTS_FLOAT,
-    MOMENTS_MEAN, MOMENTS_PACKED, MOMENTS_PASSES, MOMENTS_UNORM, RECEIVERS, SOFT_TAPS, Shader,
+    MOMENTS_MEAN, MOMENTS_PASSES, MOMENTS_SOFT, MOMENTS_UNORM, RECEIVERS, SOFT_TAPS, Shader,
 };
 use crate::{error::Error, gpu::Gpu, params::Settings};
 
@@ -37,7 +37,7 @@ pub(super) const LOOKUP: Shader = Shader {
         MOMENTS_DEPTH,
         MOMENTS_FLOAT,
         MOMENTS,
-        MOMENTS_PACKED,
+        MOMENTS_SOFT,
         BOUNDS,
         SOFT,
     ],
@@ -57,7 +57,7 @@ pub(super) const LOOKUP_16: Shader = Shader {
         MOMENTS_DEPTH,
         MOMENTS_UNORM,
         MOMENTS,
-        MOMENTS_PACKED,
+        MOMENTS_SOFT,
         BOUNDS,
         SOFT,
     ],
