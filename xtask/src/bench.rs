@@ -27,9 +27,7 @@ pub fn run() -> Result<()> {
     let json: Value = serde_json::from_str(&text).context("`umbrage bench --json` printed no JSON")?;
 
     let made = &json["made"];
-    let word = |v: &Value| v.as_str().unwrap_or("unknown").to_string();
-    let day = word(&made["date"]).chars().take(10).collect::<String>();
-    let folder = PathBuf::from("benchmarks").join(format!("{day}-{}", slug(&word(&made["adapter"]["name"]))));
+    let folder = folder(made);
     fs::create_dir_all(&folder).with_context(|| format!("can't make {}", folder.display()))?;
     let write = |name: &str, text: &str| {
         let path = folder.join(name);
@@ -37,15 +35,33 @@ pub fn run() -> Result<()> {
     };
     write("bench.json", &text)?;
     if !folder.join("README.md").exists() {
-        write("README.md", &readme(made, &day))?;
+        write("README.md", &readme(made))?;
     }
     println!("wrote {}", folder.display());
     Ok(())
 }
 
+/// Where the numbers of a run belong: `benchmarks/<date>-<machine>`.
+pub fn folder(made: &Value) -> PathBuf {
+    PathBuf::from("benchmarks").join(format!("{}-{}", day(made), slug(&word(&made["adapter"]["name"]))))
+}
+
+fn day(made: &Value) -> String {
+    word(&made["date"]).chars().take(10).collect()
+}
+
+fn word(value: &Value) -> String {
+    value.as_str().unwrap_or("unknown").to_string()
+}
+
+/// The folder of the optional reference data.
+pub fn shared() -> PathBuf {
+    std::env::var_os("UMBRAGE_SHARED").map_or_else(|| PathBuf::from("../shared"), PathBuf::from)
+}
+
 /// Scene files `peer-*.scene.toml` of the optional reference data, where it is there.
 fn shared_scenes() -> Vec<String> {
-    let root = std::env::var_os("UMBRAGE_SHARED").map_or_else(|| PathBuf::from("../shared"), PathBuf::from);
+    let root = shared();
     let Ok(entries) = fs::read_dir(root.join("scenes")) else {
         println!("no shared scenes in {}: the built-in ones only", root.display());
         return Vec::new();
@@ -65,19 +81,26 @@ fn slug(name: &str) -> String {
     plain.split_whitespace().take(4).collect::<Vec<_>>().join("-")
 }
 
-fn readme(made: &Value, day: &str) -> String {
-    let word = |v: &Value| v.as_str().unwrap_or("unknown").to_string();
+fn readme(made: &Value) -> String {
+    let text = heading("Benchmark", made, "cargo xtask bench");
+    format!(
+        "{text}Raw numbers: `bench.json`. Times are medians of {FRAMES} frames at {SIZE}, runs interleaved.\n\n\
+         ## What the numbers say\n"
+    )
+}
+
+/// Title, day and circumstances.
+pub fn heading(what: &str, made: &Value, command: &str) -> String {
     let (machine, adapter) = (&made["machine"], &made["adapter"]);
     format!(
-        "# Benchmark of {day}\n\n\
+        "# {what} of {}\n\n\
          | | |\n|---|---|\n\
          | machine | {}, {} cores, {} |\n\
          | adapter | {} ({}, {}) |\n\
          | driver | {} |\n\
          | commit | {} |\n\
-         | command | `cargo xtask bench` |\n\n\
-         Raw numbers: `bench.json`. Times are medians of {FRAMES} frames at {SIZE}, runs interleaved.\n\n\
-         ## What the numbers say\n",
+         | command | `{command}` |\n\n",
+        day(made),
         word(&machine["cpu"]),
         machine["cores"],
         word(&machine["os"]),

@@ -4,6 +4,7 @@ mod bench;
 mod demo;
 mod setup;
 mod shell;
+mod tables;
 mod test;
 
 use anyhow::{Result, bail};
@@ -15,7 +16,9 @@ cargo xtask COMMAND
   setup   find a usable graphics adapter; where there is none, install Mesa's software Vulkan driver (Debian, Ubuntu)
   demo    compare the techniques on a few built-in scenes; ends in a table and out/demo/index.html
   test    run the whole test suite
-  bench   measure the standard set of scenes and write benchmarks/<date>-<machine>/";
+  bench   measure the standard set of scenes and write benchmarks/<date>-<machine>/
+  tables za|fe
+          measure the tables of two theses again: filtered and soft maps (za), splits (fe); write maps/ or splits/ there";
 
 fn main() -> ExitCode {
     match run() {
@@ -35,6 +38,8 @@ fn run() -> Result<()> {
         ["demo"] => demo::run(),
         ["test", rest @ ..] => test::run(rest),
         ["bench"] => bench::run(),
+        ["tables", "za"] => tables::za::run(),
+        ["tables", "fe"] => tables::fe::run(),
         [] | ["help" | "-h" | "--help"] => {
             println!("{USAGE}");
             Ok(())

@@ -20,16 +20,17 @@ Examples:
   umbrage sweep contact --light 0 --techniques shadow-map,pcf --samples 1024 -o out
   umbrage sweep city --techniques pcf --vary 'pcf:kernel=3|5|7,size=512|1024|2048'
   umbrage sweep contact --techniques shadow-map --vary 'shadow-map:light-samples=1|4|16|64'
+  umbrage sweep city --light 0 --techniques esm --vary 'esm:exponent=10..80/8'
 
 Errors are those of `compare`, times those of `bench`. Around its settings in the list each technique is varied in one parameter \
 at a time: numbers ×2, ×1/2, ×4, ×1/4, words by each value, hard techniques on soft lights by `light-samples`, too; at most 12 \
 settings a technique. What is set stays. --vary takes the place of that for its technique, with all combinations of the \
-values. DIR gets sweep.json, index.html (open it in a browser), plots/ and pictures/.")]
+values; from..to/count stands for so many numbers in equal steps (5 without a count), and the error along them is drawn, too. DIR gets sweep.json, index.html (open it in a browser), plots/ and pictures/.")]
 pub struct Sweep {
     #[command(flatten)]
     what: args::What,
     /// All combinations of these values in place of the built-in sweep of the technique; may be repeated
-    #[arg(long, value_name = "TECHNIQUE:NAME=VALUE|VALUE,…", value_parser = Vary::parse)]
+    #[arg(long, value_name = "TECHNIQUE:NAME=VALUE|FROM..TO,…", value_parser = Vary::parse)]
     vary: Vec<Vary>,
     /// Rays for each pixel of the reference
     #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]

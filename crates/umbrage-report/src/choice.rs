@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use std::collections::BTreeMap;
-use umbrage::{Gpu, Param, ParamKind, Settings, Technique, TechniqueInfo};
+use umbrage::{Gpu, Param, ParamKind, Settings, Technique, TechniqueInfo, Value};
 use umbrage_core::LightKind;
 
 /// Name of the CPU ray tracer where a technique may be named.
@@ -110,6 +110,18 @@ impl Choice {
     /// The parameters that are not at their default.
     pub fn changed(&self) -> &BTreeMap<String, String> {
         &self.changed
+    }
+
+    /// The value of a parameter, [`LIGHT_SAMPLES`] among them; `None` where it is a word, or there is none of the name.
+    pub(crate) fn number(&self, name: &str) -> Option<f64> {
+        if name == LIGHT_SAMPLES {
+            return self.light_samples.map(f64::from);
+        }
+        match self.settings.iter().find(|(own, _)| *own == name)?.1 {
+            Value::Int(value) => Some(value as f64),
+            Value::Float(value) => Some(value),
+            Value::Choice(_) | Value::Switch(_) => None,
+        }
     }
 
     /// Id and what is set, as one would write it.

@@ -57,7 +57,8 @@ impl Frames {
         Spread::of(self.prepare_ms.iter().copied())
     }
 
-    /// GPU time of each pass, in the order in which they were recorded. A pass that a frame left out took no time.
+    /// GPU time of each pass, in the order in which they were recorded. Passes of one name in a frame are added up; one that a
+    /// frame left out took no time.
     pub(crate) fn passes(&self) -> Vec<(String, String, Spread)> {
         let mut names: Vec<(&str, &str)> = Vec::new();
         for time in self.passes.iter().flatten() {
@@ -67,7 +68,7 @@ impl Frames {
         }
         let of = |(owner, pass): (&str, &str)| {
             let is_it = |t: &&PassTime| t.owner == owner && t.pass == pass;
-            let times = self.passes.iter().map(|frame| frame.iter().find(is_it).map_or(0.0, |t| t.time_ms));
+            let times = self.passes.iter().map(|frame| frame.iter().filter(is_it).map(|t| t.time_ms).sum());
             (owner.to_string(), pass.to_string(), Spread::of(times))
         };
         names.into_iter().map(of).collect()
@@ -84,4 +85,21 @@ impl Frames {
 /// The renderer calls the passes of a light's technique `light N`; others are its own.
 pub(crate) fn is_of_technique(owner: &str) -> bool {
     owner.starts_with("light ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn passes_of_one_name_are_added_up_and_missing_ones_take_no_time() {
+        let pass = |owner: &str, pass: &str, time_ms| PassTime { owner: owner.into(), pass: pass.into(), time_ms };
+        let passes = vec![
+            vec![pass("light 0", "blur", 1.0), pass("light 0", "blur", 2.0), pass("light 1", "blur", 8.0)],
+            vec![pass("light 0", "blur", 4.0), pass("light 0", "blur", 3.0)],
+        ];
+        let found = Frames { passes, ..Frames::default() }.passes();
+        let medians: Vec<_> = found.iter().map(|(owner, pass, time)| (&**owner, &**pass, time.median)).collect();
+        assert_eq!(medians, [("light 0", "blur", 5.0), ("light 1", "blur", 4.0)]);
+    }
 }

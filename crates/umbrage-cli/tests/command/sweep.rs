@@ -93,6 +93,20 @@ fn check_answer(answer: &Value, results: &[Value]) {
 }
 
 #[test]
+fn a_range_of_numbers_gives_a_curve_along_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let vary = "shadow-map:bias=0..8/3,size=64";
+    let report =
+        sweep(folder.path(), &["contact", "--light", "0", "--techniques", "shadow-map", "--vary", vary, "-o", "out"]);
+    let curve = &report["scenes"][0]["lights"][0]["curves"][0];
+    assert_eq!((&curve["parameter"], &curve["values"]), (&"bias".into(), &json!([0.0, 4.0, 8.0])));
+    let plot = fs::read_to_string(folder.path().join("out/plots/0-contact-light0-mae-along-bias.svg")).expect("a plot");
+    assert!(plot.contains("<title>shadow-map size=64 bias=8: mae "), "{plot}");
+    let page = fs::read_to_string(folder.path().join("out/index.html")).expect("a page");
+    assert!(page.contains("0/0/mae/bias"), "the page lacks the plot");
+}
+
+#[test]
 fn techniques_are_varied_by_themselves_and_over_soft_lights_too() {
     let folder = tempfile::tempdir().expect("a folder");
     let report = sweep(folder.path(), &["contact", "--techniques", "shadow-map", "--set", "shadow-map.size=64"]);
@@ -137,6 +151,8 @@ fn mistakes_are_named_before_the_work_and_leave_nothing() {
     refused("shadow-map:size=1|0", &["`size` of shadow-map", "`0`", "1 to"]);
     refused("shadow-map:faces=front|side", &["side", "front, back"]);
     refused("none:light-samples=1|2", &["`none` is not among"]);
+    refused("shadow-map:bias=0..x", &["0..x", "from..to/count"]);
+    refused("shadow-map:size=64..128/4", &["`size` of shadow-map", "85.3333"]);
     refused("shadow-map", &["--vary", "technique:name=value|value"]);
 }
 

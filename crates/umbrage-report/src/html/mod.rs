@@ -58,7 +58,7 @@ struct SweepData<'a> {
     report: &'a SweepReport,
     pictures: BTreeMap<&'a str, String>,
     measures: Vec<Explained>,
-    /// By scene, light and measure: `0/1/mae`.
+    /// By scene, light and measure: `0/1/mae`; those along a parameter have its name, too: `0/1/mae/lambda`.
     plots: BTreeMap<String, &'a str>,
 }
 
@@ -77,7 +77,8 @@ pub fn page(report: &Report, pictures: &BTreeMap<String, Vec<u8>>) -> String {
 
 /// The page of a sweep.
 pub(crate) fn sweep_page(report: &SweepReport, pictures: &BTreeMap<String, Vec<u8>>, plots: &[Plot]) -> String {
-    let place = |plot: &Plot| format!("{}/{}/{}", plot.place.0, plot.place.1, plot.measure);
+    let along = |plot: &Plot| plot.along.as_ref().map_or(String::new(), |parameter| format!("/{parameter}"));
+    let place = |plot: &Plot| format!("{}/{}/{}{}", plot.place.0, plot.place.1, plot.measure, along(plot));
     let measures = MEASURES.iter().map(|measure| Explained { measure: *measure, help: measure.help() }).collect();
     let plots = plots.iter().map(|plot| (place(plot), plot.svg.as_str())).collect();
     filled(&SWEEP, &SweepData { report, pictures: embedded(pictures), measures, plots })

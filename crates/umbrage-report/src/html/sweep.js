@@ -29,8 +29,8 @@ function answers(light, answer, measure) {
     el("div", {}, el("h4", {}, "Equal quality: the least milliseconds over the floor at an error"), answerTable(light, levels, (r) => r.over_floor_ms)));
 }
 
-/** The plot, with a line below it that names what is pointed at. */
-function figure(svg, light) {
+/** A plot, with a line below it that names what is pointed at. */
+function pointed(svg) {
   const readout = el("figcaption", { class: "note" }, "Point at a mark to see its settings, at a name to see its technique alone.");
   const holder = el("div", { class: "plot" });
   holder.innerHTML = svg; // drawn by the program, names escaped
@@ -42,10 +42,21 @@ function figure(svg, light) {
     if (mark) readout.textContent = mark.querySelector("title").textContent;
   });
   holder.addEventListener("pointerleave", () => groups.forEach((g) => g.classList.remove("dim")));
+  return [holder, readout];
+}
+
+/** The plots along parameters that were asked for. */
+function alongParameters(place) {
+  const own = Object.keys(data.plots).filter((name) => name.startsWith(`${place}/`));
+  return own.map((name) => el("figure", {}, pointed(data.plots[name])));
+}
+
+/** Error against cost. */
+function figure(svg, light) {
   const { clock, floor_ms, bare_minimum_size, bare_minimum_over_floor_ms } = light.yardsticks;
   const cost = clock === "gpu" ? "GPU time and preparation" : "whole frames, since the adapter keeps no time";
   const facts = `Cost: ${cost}. Floor ${spread(floor_ms)} ms, bare minimum with ${bare_minimum_size} texels ${spread(bare_minimum_over_floor_ms)} ms over it.`;
-  return el("figure", {}, holder, readout, el("p", { class: "note" }, facts));
+  return el("figure", {}, pointed(svg), el("p", { class: "note" }, facts));
 }
 
 function allSettings(light) {
@@ -84,7 +95,8 @@ function lightBlock(s, light, l) {
   redraws.push((measure) => {
     const answer = light.answers.find((a) => a.measure === measure.name);
     const none = () => el("p", { class: "notice" }, `No ${measure.name} of this light.`);
-    plot.replaceChildren(answer ? figure(data.plots[`${s}/${l}/${measure.name}`], light) : none());
+    const place = `${s}/${l}/${measure.name}`;
+    plot.replaceChildren(...(answer ? [figure(data.plots[place], light), ...alongParameters(place)] : [none()]));
     tables.replaceChildren(answer ? answers(light, answer, measure) : "");
   });
   const skipped = light.skipped.map(({ technique, reason }) => `${technique} (${reason})`).join(", ");

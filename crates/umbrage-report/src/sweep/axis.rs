@@ -1,4 +1,4 @@
-//! Logarithmic axes.
+//! Axes: logarithmic, or even for what runs through zero or not far.
 
 use crate::round::rounded;
 
@@ -12,6 +12,8 @@ pub(crate) struct Axis {
     high: f64,
     from: f64,
     to: f64,
+    /// Whether equal steps are equal lengths, in place of equal ratios.
+    even: bool,
     /// Whether some values are on the lower edge, because they are below it.
     pub cut: bool,
 }
@@ -25,12 +27,26 @@ impl Axis {
         let high = if high > 0.0 { high * 1.25 } else { 1.0 };
         let least = positive().fold(high / 2.0, f64::min).max(high / 10f64.powi(DECADES));
         let cut = values.iter().any(|v| *v < least);
-        Self { low: if cut { below(least / 1.5) } else { least / 1.25 }, high, from, to, cut }
+        Self { low: if cut { below(least / 1.5) } else { least / 1.25 }, high, from, to, even: false, cut }
+    }
+
+    /// Logarithmic where the values go over a factor of ten or more, else even.
+    pub(crate) fn even_or_log(values: &[f64], from: f64, to: f64) -> Self {
+        let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+        if low > 0.0 && high >= 10.0 * low || low >= high {
+            return Self::new(values, from, to);
+        }
+        let room = 0.04 * (high - low);
+        Self { low: low - room, high: high + room, from, to, even: true, cut: false }
     }
 
     /// Where a value is.
     pub(crate) fn at(&self, value: f64) -> f64 {
-        let share = (value.max(self.low) / self.low).ln() / (self.high / self.low).ln();
+        let share = if self.even {
+            (value - self.low) / (self.high - self.low)
+        } else {
+            (value.max(self.low) / self.low).ln() / (self.high / self.low).ln()
+        };
         self.from + share.min(1.0) * (self.to - self.from)
     }
 
@@ -40,6 +56,9 @@ impl Axis {
 
     /// 1, 2 and 5 of each decade, or more where those are too few, but none where the edge is marked.
     pub(crate) fn ticks(&self) -> Vec<f64> {
+        if self.even {
+            return self.even_ticks();
+        }
         let (first, last) = (self.low.log10().floor() as i32, self.high.log10().ceil() as i32);
         let of = |digits: &[f64]| -> Vec<f64> {
             let all = (first..=last).flat_map(|decade| digits.iter().map(move |d| rounded(d * 10f64.powi(decade))));
@@ -48,6 +67,13 @@ impl Axis {
         };
         let (few, more) = (of(&[1.0, 2.0, 5.0]), of(&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0]));
         if few.len() < 3 { more } else { few }
+    }
+
+    /// Multiples of 1, 2 or 5 of a decade, five to a dozen of them.
+    fn even_ticks(&self) -> Vec<f64> {
+        let step = below((self.high - self.low) / 5.0);
+        let (first, last) = ((self.low / step).ceil() as i64, (self.high / step).floor() as i64);
+        (first..=last).map(|i| rounded(i as f64 * step)).collect()
     }
 
     /// The lower edge.
@@ -80,6 +106,17 @@ mod tests {
         assert!(step > 0.0 && (axis.at(80.0) - axis.at(40.0) - step).abs() < 1e-9);
         assert!((axis.at(1.25 * 80.0) - 500.0).abs() < 1e-9 && (axis.at(0.8) - 100.0).abs() < 1e-9);
         assert_eq!((axis.cut, axis.ticks()), (false, vec![1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0]));
+    }
+
+    #[test]
+    fn equal_steps_are_equal_lengths_where_values_run_through_zero() {
+        let axis = Axis::even_or_log(&[0.0, 0.5, 1.0], 100.0, 500.0);
+        assert!((axis.at(0.5) - axis.at(0.0) - (axis.at(1.0) - axis.at(0.5))).abs() < 1e-9 && axis.at(0.5) == 300.0);
+        assert_eq!(axis.ticks(), [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]);
+        assert_eq!(Axis::even_or_log(&[-3.0, 9.0], 0.0, 1.0).ticks(), [-2.0, 0.0, 2.0, 4.0, 6.0, 8.0]);
+        assert_eq!(Axis::even_or_log(&[256.0, 4096.0], 0.0, 1.0), Axis::new(&[256.0, 4096.0], 0.0, 1.0));
+        assert!(Axis::even_or_log(&[7.0], 0.0, 1.0).at(7.0).is_finite());
+        assert!(Axis::even_or_log(&[], 0.0, 1.0).at(7.0).is_finite());
     }
 
     #[test]

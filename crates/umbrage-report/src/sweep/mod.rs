@@ -1,8 +1,10 @@
 //! Quality at equal cost and cost at equal quality: techniques × settings on each light, scored by [`Compare`](crate::Compare)
 //! and timed by [`Bench`](crate::Bench).
 
+mod along;
 pub(crate) mod answer;
 mod axis;
+mod canvas;
 pub(crate) mod measures;
 mod plan;
 pub(crate) mod plot;
@@ -53,6 +55,8 @@ pub struct SweepOutcome {
     pub report: SweepReport,
     /// The pictures of the references.
     pub pictures: Pictures,
+    /// Techniques and parameters that plots of the error run along.
+    along: Vec<(String, String)>,
 }
 
 impl Sweep {
@@ -69,7 +73,8 @@ impl Sweep {
         }
         let made = Made::now(self.command.clone(), gpu.adapter());
         let report = SweepReport { schema: SCHEMA, made, frames: self.frames, scenes };
-        Ok(SweepOutcome { report, pictures: run.pictures })
+        let along = self.vary.iter().filter_map(|v| Some((v.technique.clone(), v.along()?.0.to_string())));
+        Ok(SweepOutcome { report, pictures: run.pictures, along: along.collect() })
     }
 
     /// Everything that can be known to fail before the long work.
@@ -101,7 +106,8 @@ impl SweepOutcome {
         for (name, bytes) in &self.pictures.files {
             folder.write(name, bytes)?;
         }
-        let plots = plot::all(&self.report);
+        let mut plots = plot::all(&self.report);
+        plots.extend(along::all(&self.report, &self.along));
         for plot in &plots {
             folder.write(&plot.file, plot.svg.as_bytes())?;
         }

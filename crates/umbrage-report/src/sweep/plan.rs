@@ -20,6 +20,8 @@ pub(crate) struct Curve {
     pub parameter: String,
     /// [`Choice::label`] of each.
     pub labels: Vec<String>,
+    /// The parameter's value in each; none where it is a word.
+    pub values: Vec<f64>,
 }
 
 impl Plan {
@@ -87,6 +89,7 @@ fn product(base: &Choice, vary: &Vary) -> Result<(Vec<Choice>, Vec<Curve>), Erro
         technique: base.info.id,
         parameter: parameter.into(),
         labels: choices.iter().map(Choice::label).collect(),
+        values: choices.iter().map(|choice| choice.number(parameter)).collect::<Option<_>>().unwrap_or_default(),
     };
     let curves = choices.chunks(length).map(curve).collect();
     Ok((choices, curves))
@@ -121,7 +124,15 @@ mod tests {
         let label = |bias, size| format!("shadow-map:bias={bias}:faces=back:size={size}");
         assert_eq!(labels(&plan), [label(0, 256), label(0, 512), label(2, 256), label(2, 512)]);
         assert_eq!(plan.curves.len(), 2);
-        assert_eq!((&*plan.curves[1].parameter, &*plan.curves[1].labels), ("size", &labels(&plan)[2..]));
+        let Curve { parameter, labels: on_it, values, .. } = &plan.curves[1];
+        assert_eq!((&**parameter, &**on_it, &**values), ("size", &labels(&plan)[2..], &[256.0, 512.0][..]));
+    }
+
+    #[test]
+    fn words_have_no_values_and_points_of_the_light_do() {
+        let plan = plan("shadow-map", &["shadow-map:faces=front|back", "shadow-map:light-samples=1|4"]).unwrap();
+        let values: Vec<_> = plan.curves.into_iter().map(|curve| curve.values).collect();
+        assert_eq!(values, [vec![], vec![1.0, 4.0]]);
     }
 
     #[test]

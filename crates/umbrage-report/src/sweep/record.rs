@@ -130,6 +130,8 @@ pub struct SweepCurve {
     pub technique: String,
     /// Name of the parameter.
     pub parameter: String,
+    /// Its values, one a result; none where it is a word.
+    pub values: Vec<f64>,
     /// Numbers of the results.
     pub results: Vec<usize>,
 }
@@ -231,7 +233,12 @@ pub(crate) fn fixture() -> SweepReport {
         },
         answers: answers(&results, Some(2.5)),
         results,
-        curves: vec![SweepCurve { technique: "a<b".into(), parameter: "size".into(), results: vec![0, 1, 2] }],
+        curves: vec![SweepCurve {
+            technique: "a<b".into(),
+            parameter: "size".into(),
+            values: vec![256.0, 512.0, 1024.0],
+            results: vec![0, 1, 2],
+        }],
         skipped: vec![Skipped { technique: "picky".into(), reason: "not for line lights".into() }],
     };
     SweepReport {

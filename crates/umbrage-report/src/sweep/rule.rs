@@ -47,8 +47,8 @@ pub(crate) fn around(base: &Choice, soft: bool) -> Result<(Vec<Choice>, Vec<Curv
         }
         if along.len() > 1 {
             along.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let labels = along.into_iter().map(|(_, label)| label).collect();
-            curves.push(Curve { technique: base.info.id, parameter: line.name.into(), labels });
+            let (values, labels) = along.into_iter().unzip();
+            curves.push(Curve { technique: base.info.id, parameter: line.name.into(), labels, values });
         }
     }
     Ok((choices, curves))

@@ -154,10 +154,12 @@ fn joined(scored: ResultRecord, timed: Option<Timed>) -> SweepResult {
 }
 
 fn numbered(curve: &Curve, numbers: &BTreeMap<String, usize>) -> SweepCurve {
+    let found = || curve.labels.iter().map(|label| numbers.get(label).copied());
     SweepCurve {
         technique: curve.technique.into(),
         parameter: curve.parameter.clone(),
-        results: curve.labels.iter().filter_map(|label| numbers.get(label).copied()).collect(),
+        values: curve.values.iter().zip(found()).filter_map(|(value, number)| number.map(|_| *value)).collect(),
+        results: found().flatten().collect(),
     }
 }
 
@@ -204,8 +206,10 @@ mod tests {
         assert_eq!(parts.skipped, [skipped]);
         assert_eq!(parts.numbers["shadow-map:size=64"], 2);
         let labels = ["shadow-map:size=64", "pcf", "shadow-map:size=512"].map(String::from).to_vec();
-        let curve = Curve { technique: "shadow-map", parameter: "size".into(), labels };
-        assert_eq!(numbered(&curve, &parts.numbers).results, [2, 0]);
+        let values = vec![64.0, 100.0, 512.0];
+        let curve = Curve { technique: "shadow-map", parameter: "size".into(), labels, values };
+        let SweepCurve { values, results, .. } = numbered(&curve, &parts.numbers);
+        assert_eq!((values, results), (vec![64.0, 512.0], vec![2, 0]));
     }
 
     #[test]

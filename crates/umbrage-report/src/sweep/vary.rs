@@ -1,9 +1,12 @@
-//! Sweeps as users write them: `pcf:kernel=3|5|7,size=512|1024`.
+//! Sweeps as users write them: `pcf:kernel=3|5|7,size=512|1024`, and ranges: `cascaded:lambda=0..1`.
 
-use crate::error::Error;
+use crate::{error::Error, round::rounded};
 
 /// Most settings that one sweep may come to.
 const MOST: usize = 1000;
+
+/// Values of a range that does not say how many.
+const USUAL: usize = 5;
 
 /// Values to try for some parameters of one technique: all combinations of them.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +18,8 @@ pub struct Vary {
 }
 
 impl Vary {
-    /// Reads `id:name=value|value,name=value|value`. Names and values are looked up later, by [`crate::Choice`].
+    /// Reads `id:name=value|value,name=value|value`. In place of a value may be a range, `from..to/count`: so many numbers in equal
+    /// steps, 5 where no count is given. Names and values are looked up later, by [`crate::Choice`].
     ///
     /// # Errors
     /// What is not of this form; a parameter that comes twice; more than 1000 combinations.
@@ -29,7 +33,8 @@ impl Vary {
             if params.iter().any(|(other, _)| other == name) {
                 return Err(Error::Name(format!("`{name}` comes twice in `{text}`; put all its values together")));
             }
-            params.push((name.into(), values.split('|').map(|value| value.trim().into()).collect()));
+            let values = values.split('|').map(|value| range(value.trim())).collect::<Result<Vec<_>, _>>()?;
+            params.push((name.into(), values.into_iter().flatten().collect()));
         }
         let count = params.iter().fold(1usize, |count, (_, values)| count.saturating_mul(values.len()));
         if count > MOST {
@@ -57,6 +62,21 @@ impl Vary {
     }
 }
 
+/// The values of `from..to/count`; anything else is a value itself.
+fn range(text: &str) -> Result<Vec<String>, Error> {
+    let Some((from, rest)) = text.split_once("..") else { return Ok(vec![text.into()]) };
+    let (to, count) = rest.split_once('/').map_or((rest, None), |(to, count)| (to, Some(count)));
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+    let count = count.map_or(Some(USUAL), |count| count.trim().parse().ok().filter(|n| (2..=MOST).contains(n)));
+    let (Some(from), Some(to), Some(count)) = (number(from), number(to), count) else {
+        let text =
+            format!("`{text}` is no range; write from..to or from..to/count, such as 0..1/11, with 2 to {MOST} values");
+        return Err(Error::Name(text));
+    };
+    let at = |i: usize| rounded(from + (to - from) * i as f64 / (count - 1) as f64).to_string();
+    Ok((0..count).map(at).collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -80,6 +100,19 @@ mod tests {
         let vary = Vary::parse("pcf:size=512|1024,kernel=disc").unwrap();
         assert_eq!((vary.technique.as_str(), vary.along()), ("pcf", Some(("size", 2))));
         assert_eq!(combinations("pcf:size=512|1024,kernel=disc"), ["kernel=disc size=512", "kernel=disc size=1024"]);
+    }
+
+    #[test]
+    fn ranges_are_equal_steps() {
+        let values = |text: &str| combinations(text).into_iter().map(|v| v.replace("a=", "")).collect::<Vec<_>>();
+        assert_eq!(values("t:a=0..1"), ["0", "0.25", "0.5", "0.75", "1"]);
+        assert_eq!(values("t:a=0 .. 1 / 11|2")[3..], ["0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "1", "2"]);
+        assert_eq!(values("t:a=512..2048/4"), ["512", "1024", "1536", "2048"]);
+        assert_eq!(values("t:a=1..-1/3"), ["1", "0", "-1"]);
+        for wrong in ["t:a=0..", "t:a=..1", "t:a=0..x", "t:a=0..1/1", "t:a=0..1/x", "t:a=0..inf", "t:a=0..1/9999"] {
+            let text = Vary::parse(wrong).map(|v| v.combinations()).unwrap_err().to_string();
+            assert!(text.contains("from..to/count"), "{wrong}: {text}");
+        }
     }
 
     #[test]

@@ -1,0 +1,164 @@
+//! Tables of the sources measured again: the same methods on scenes of the same size, with the sources' numbers beside ours.
+
+pub mod fe;
+mod thin;
+pub mod za;
+
+use crate::{
+    bench, setup,
+    shell::{self, Profile},
+};
+use anyhow::{Context, Result};
+use serde_json::Value;
+use std::{fs, path::PathBuf};
+
+/// Where scenes of the tables are made.
+const SCENES: &str = "target/tables";
+
+/// Passes that every picture needs, from wherever it is seen; a technique's other ones make what could stay while nothing moves.
+const ON_SCREEN: [&str; 10] = [
+    "visibility",
+    "add a sample",
+    "mean of samples",
+    "clear",
+    "tiles",
+    "rows",
+    "columns",
+    "blurred",
+    "volumes",
+    "depth for volumes",
+];
+
+/// A run of the command: its arguments as words of a line, and the name of the file for its numbers.
+struct Run<'a> {
+    file: &'a str,
+    line: String,
+}
+
+/// Writes files of scenes and gives their paths, in order.
+fn make_scenes(files: &[(&str, String)]) -> Result<Vec<String>> {
+    fs::create_dir_all(SCENES).with_context(|| format!("can't make {SCENES}"))?;
+    let write = |(name, text): &(&str, String)| {
+        let path = format!("{SCENES}/{name}");
+        fs::write(&path, text).with_context(|| format!("can't write {path}"))?;
+        Ok(path)
+    };
+    files.iter().map(write).collect()
+}
+
+/// The Stanford bunny with about `triangles` triangles, as OBJ.
+fn bunny(triangles: usize) -> Result<String> {
+    let path = bench::shared().join("data/stanford-bunny.obj");
+    let missing = || format!("{}: the bunny of the reference data; UMBRAGE_SHARED names its folder", path.display());
+    thin::thin(&fs::read_to_string(&path).with_context(missing)?, triangles)
+}
+
+/// Runs all of `runs`, files their numbers below `benchmarks/<date>-<machine>/NAME`, and gives them with that folder.
+fn measure(name: &str, runs: &[Run<'_>]) -> Result<(PathBuf, Vec<Value>)> {
+    setup::run(Profile::Release)?;
+    let mut found: Vec<Value> = Vec::new();
+    for Run { file, line } in runs {
+        let arguments: Vec<&str> = line.split_whitespace().collect();
+        let text = shell::output(shell::umbrage(Profile::Release, &arguments))?;
+        let json: Value = serde_json::from_str(&text).with_context(|| format!("`umbrage {line}` printed no JSON"))?;
+        let folder = bench::folder(&json["made"]).join(name);
+        fs::create_dir_all(&folder).with_context(|| format!("can't make {}", folder.display()))?;
+        let path = folder.join(file);
+        fs::write(&path, text).with_context(|| format!("can't write {}", path.display()))?;
+        found.push(json);
+    }
+    let made = &found.first().context("nothing was measured")?["made"];
+    Ok((bench::folder(made).join(name), found))
+}
+
+/// Prints `text`, and writes it as the folder's README, or beside one that is there already, since that has been worked on.
+fn file(folder: &std::path::Path, text: &str) -> Result<()> {
+    let readme = folder.join("README.md");
+    let path = if readme.exists() { folder.join("tables.md") } else { readme };
+    fs::write(&path, text).with_context(|| format!("can't write {}", path.display()))?;
+    println!("{text}\nwrote {}", path.display());
+    Ok(())
+}
+
+/// The result of `label`, as lists of techniques have it, on the first light of scene number `scene`.
+fn result<'a>(json: &'a Value, scene: usize, label: &str) -> Option<&'a Value> {
+    let mut words = label.split(':');
+    let id = words.next()?;
+    let (mut samples, mut settings) = (Value::Null, serde_json::Map::new());
+    for (name, value) in words.filter_map(|word| word.split_once('=')) {
+        match name {
+            "light-samples" => samples = value.parse::<u64>().ok()?.into(),
+            _ => drop(settings.insert(name.into(), value.into())),
+        }
+    }
+    let settings = Value::Object(settings);
+    let results = json["scenes"][scene]["lights"][0]["results"].as_array()?;
+    results.iter().find(|r| r["technique"] == id && r["light_samples"] == samples && r["settings"] == settings)
+}
+
+/// Milliseconds of a frame, and how many of them make what could stay while nothing moves.
+fn frame_and_making_ms(result: &Value) -> Option<(f64, f64)> {
+    let cost = &result["cost"];
+    let is_making = |pass: &&Value| {
+        let name = pass["pass"].as_str().unwrap_or_default();
+        pass["owner"].as_str().is_some_and(|owner| owner.starts_with("light ")) && !ON_SCREEN.contains(&name)
+    };
+    let passes = cost["passes"].as_array()?.iter().filter(is_making);
+    let making: f64 = passes.filter_map(|pass| pass["time_ms"]["median"].as_f64()).sum();
+    Some((cost["frame_ms"]["median"].as_f64()?, making + cost["prepare_ms"]["median"].as_f64()?))
+}
+
+/// A row of a table in Markdown.
+fn row(cells: impl IntoIterator<Item = String>) -> String {
+    format!("| {} |\n", cells.into_iter().collect::<Vec<_>>().join(" | "))
+}
+
+/// The first rows of a table in Markdown.
+fn head(cells: &[&str]) -> String {
+    row(cells.iter().map(|cell| cell.to_string())) + &row(cells.iter().map(|_| "---".to_string()))
+}
+
+/// A number with so many digits after the point; a dash where there is none.
+fn number(value: Option<f64>, digits: usize) -> String {
+    value.map_or("–".into(), |value| format!("{value:.digits$}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn report() -> Value {
+        let pass = |owner: &str, pass: &str, ms: f64| json!({"owner": owner, "pass": pass, "time_ms": {"median": ms}});
+        let cost = json!({
+            "passes": [pass("gbuffer", "gbuffer", 1.0), pass("light 0", "map", 4.0), pass("light 0", "visibility", 2.0)],
+            "prepare_ms": {"median": 0.5},
+            "frame_ms": {"median": 9.0},
+        });
+        let of = |settings: Value, samples: Value| json!({"technique": "pcf", "settings": settings, "light_samples": samples, "cost": cost});
+        let results = [of(json!({}), Value::Null), of(json!({"kernel": "7"}), Value::Null), of(json!({}), 16.into())];
+        json!({"scenes": [{"lights": [{"results": results}]}]})
+    }
+
+    #[test]
+    fn results_are_found_by_their_labels() {
+        let report = report();
+        let settings =
+            |label: &str| result(&report, 0, label).map(|r| (r["settings"].clone(), r["light_samples"].clone()));
+        assert_eq!(settings("pcf"), Some((json!({}), Value::Null)));
+        assert_eq!(settings("pcf:kernel=7"), Some((json!({"kernel": "7"}), Value::Null)));
+        assert_eq!(settings("pcf:light-samples=16"), Some((json!({}), 16.into())));
+        assert_eq!((settings("pcf:kernel=5"), settings("vsm"), result(&report, 1, "pcf")), (None, None, None));
+    }
+
+    #[test]
+    fn maps_are_made_and_screens_are_drawn() {
+        assert_eq!(result(&report(), 0, "pcf").and_then(frame_and_making_ms), Some((9.0, 4.5)));
+    }
+
+    #[test]
+    fn tables_are_markdown() {
+        assert_eq!(head(&["a", "b"]), "| a | b |\n| --- | --- |\n");
+        assert_eq!((number(Some(1.256), 2), number(None, 2)), ("1.26".into(), "–".into()));
+    }
+}
