@@ -2,7 +2,6 @@
 
 use anyhow::{Context, Result};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
 
 type Cell = [i64; 3];
 
@@ -92,11 +91,9 @@ impl Mesh {
     }
 
     fn text(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string does not fail.
-        self.corners.iter().for_each(|[x, y, z]| drop(writeln!(text, "v {x} {y} {z}")));
-        self.triangles.iter().for_each(|t| drop(writeln!(text, "f {} {} {}", t[0] + 1, t[1] + 1, t[2] + 1)));
-        text
+        let corners = self.corners.iter().map(|[x, y, z]| format!("v {x} {y} {z}\n"));
+        let triangles = self.triangles.iter().map(|[a, b, c]| format!("f {} {} {}\n", a + 1, b + 1, c + 1));
+        corners.chain(triangles).collect()
     }
 }
 

@@ -1,6 +1,6 @@
 //! ZA 5.1 to 5.4: shadow volumes, filtered and soft maps on a basic and a huge scene, for static and dynamic light, and how right they are.
 
-use super::{Run, bunny, file, frame_and_making_ms, head, make_scenes, measure, number, result, row};
+use super::{Run, bunny, file, frame_ms, head, make_scenes, measure, number, result, row};
 use crate::bench;
 use anyhow::Result;
 use serde_json::Value;
