@@ -3,6 +3,7 @@
 //! View space looks along −Z with +Y up. Clip space is that of WebGPU: x and y in [−w, w], z in [0, w];
 //! depth is 1 at the near plane and falls to 0 at infinity.
 
+use crate::frustum::Frustum;
 use glam::{DAffine3, DMat3, DMat4, DVec2, DVec3, DVec4};
 
 /// A pinhole camera with an infinite far plane.
@@ -85,6 +86,16 @@ impl CameraView {
     /// From a rigid view transform and any projection.
     pub fn from_matrices(view_from_world: DAffine3, clip_from_view: DMat4) -> Self {
         Self { eye: view_from_world.inverse().translation, view_from_world, clip_from_view }
+    }
+
+    /// The volume that is seen.
+    pub fn frustum(&self) -> Frustum {
+        Frustum::of(&self.clip_from_world())
+    }
+
+    /// Unit vector along the view.
+    pub fn forward(&self) -> DVec3 {
+        -self.view_from_world.matrix3.row(2)
     }
 
     /// World to clip space.

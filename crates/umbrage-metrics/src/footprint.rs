@@ -109,15 +109,15 @@ mod tests {
     #[test]
     fn a_map_of_half_the_texels_reaches_twice_as_far() {
         let floor = Bounds { min: DVec3::new(-5.0, 0.0, -5.0), max: DVec3::new(5.0, 0.0, 5.0) };
-        let scene = FitScene { casters: vec![floor], receivers: vec![floor] };
+        let scene = FitScene::new(vec![floor], vec![floor]);
         let camera = Camera { eye: DVec3::new(0.0, 9.0, 0.1), ..Camera::default() };
         let light = LightShape::Directional { direction: DVec3::NEG_Y, angle_deg: 0.0 };
         let depth = Image::filled(64, 64, 9.0);
         let normal = Image::filled(64, 64, Vec3::Y);
         let reach = |size, splits: &[f64]| {
             let mut views = Vec::new();
-            let to_fit = Fit { focus: Focus::Light, omni: Omni::Cube, size, border_texels: 0.0 };
-            fit(&light, &camera.view(64, 64), &scene, &to_fit, &mut views);
+            let to_fit = Fit { focus: Focus::Light, omni: Omni::Cube, size, border_texels: 0.0, border_m: 0.0 };
+            fit(&light, &camera.view(64, 64).frustum(), &scene, &to_fit, &mut views);
             map_reach(&views, splits, &camera, &depth, &normal)[(32, 32)]
         };
         assert!(reach(64, &[]) > 1.0 && (reach(64, &[]) / reach(128, &[]) - 2.0).abs() < 1e-3);

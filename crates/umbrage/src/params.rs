@@ -136,6 +136,13 @@ impl Settings {
         Ok(Self { values })
     }
 
+    /// These, and the defaults of those `params` that have no value here: for a technique that makes another one.
+    pub(crate) fn with_defaults_of(&self, params: &[Param]) -> Self {
+        let lacking = params.iter().filter(|p| self.get(p.name).is_none());
+        let values = self.iter().chain(lacking.map(|p| (p.name, p.kind.default()))).collect();
+        Self { values }
+    }
+
     /// All names and values, in the order of declaration.
     pub fn iter(&self) -> impl Iterator<Item = (&'static str, Value)> + '_ {
         self.values.iter().copied()

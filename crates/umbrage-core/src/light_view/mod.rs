@@ -5,13 +5,15 @@
 //! (Brabec, Annen and Seidel, "Practical Shadow Mapping"; SG "Extensions"), so that no texel is spent elsewhere; its
 //! near side always reaches back to every caster.
 
+mod cascades;
 mod on_screen;
 mod paraboloid;
 mod parallel;
 mod perspective;
 mod rect;
 
-use crate::{bounds::Bounds, camera::CameraView, frustum::Frustum, light::LightShape};
+use crate::{bounds::Bounds, frustum::Frustum, light::LightShape};
+pub use cascades::{Cascades, Cover, fit_cascades};
 use glam::{DMat3, DMat4, DVec2, DVec3};
 pub use on_screen::texel_on_screen;
 pub use paraboloid::Paraboloid;
@@ -42,6 +44,8 @@ pub struct Fit {
     pub size: u32,
     /// Texels kept free at every border, so that filters find neighbours there.
     pub border_texels: f64,
+    /// Metres kept free besides; what a spot shows gets none.
+    pub border_m: f64,
 }
 
 /// What the views of a light cover.
@@ -91,12 +95,28 @@ impl Omni {
 }
 
 /// The boxes that a fit goes by.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct FitScene {
     /// Around each caster.
     pub casters: Vec<Bounds>,
     /// Around each receiver.
     pub receivers: Vec<Bounds>,
+    /// Around everything, also what is not seen: views that are to stand still go by it.
+    pub around: Bounds,
+}
+
+impl Default for FitScene {
+    fn default() -> Self {
+        Self::new(Vec::new(), Vec::new())
+    }
+}
+
+impl FitScene {
+    /// Of all casters and receivers.
+    pub fn new(casters: Vec<Bounds>, receivers: Vec<Bounds>) -> Self {
+        let around = casters.iter().chain(&receivers).fold(Bounds::EMPTY, |b, c| b.union(*c));
+        Self { casters, receivers, around }
+    }
 }
 
 /// Near plane of perspective views over the distance of the farthest point. Reversed float depth loses nothing by a
@@ -167,11 +187,11 @@ impl LightView {
     }
 }
 
-/// Fits the views of `light`, replacing what is in `views`. None are left where nothing that is seen can be in
-/// shadow. Returns [`Fit::omni`] where there are views and their layers are those of it, `None` for a single view.
+/// Fits the views of `light` to what is seen in `seen`, the camera's volume, replacing what is in `views`. None are left
+/// where nothing that is seen can be in shadow. Returns [`Fit::omni`] where there are views and their layers are those of it, `None` for a single view.
 pub fn fit(
     light: &LightShape,
-    camera: &CameraView,
+    seen: &Frustum,
     scene: &FitScene,
     fit: &Fit,
     views: &mut Vec<LightView>,
@@ -179,27 +199,31 @@ pub fn fit(
     views.clear();
     let center = light.center();
     if center.w == 0.0 {
-        views.extend(parallel::view(-center.truncate(), camera, scene, fit));
+        views.extend(parallel::view(-center.truncate(), seen, scene, fit));
         return None;
     }
     let position = center.truncate();
-    let all = scene.casters.iter().chain(&scene.receivers).fold(Bounds::EMPTY, |b, c| b.union(*c));
-    if all.is_empty() {
+    if scene.around.is_empty() {
         return None;
     }
-    let reach = all.corners().iter().map(|c| c.distance(position)).fold(0.0, f64::max);
-    let near = (NEAR * reach).max(f64::MIN_POSITIVE);
+    let near = near(position, scene);
     if let LightShape::Spot { direction, outer_angle_deg, .. } = *light
-        && let Some(view) = perspective::spot(position, direction, outer_angle_deg, near, camera, scene, fit)
+        && let Some(view) = perspective::spot(position, direction, outer_angle_deg, near, seen, scene, fit)
     {
         views.push(view);
         return None;
     }
     match fit.omni {
-        Omni::DualParaboloid => paraboloid::views(position, near, camera, scene, fit, views),
-        Omni::Cube | Omni::Tetrahedral => perspective::views(position, near, camera, scene, fit, views),
+        Omni::DualParaboloid => paraboloid::views(position, near, seen, scene, fit, views),
+        Omni::Cube | Omni::Tetrahedral => perspective::views(position, near, seen, scene, fit, views),
     }
     (!views.is_empty()).then_some(fit.omni)
+}
+
+/// The near plane of perspective views from `position`.
+fn near(position: DVec3, scene: &FitScene) -> f64 {
+    let reach = scene.around.corners().iter().map(|c| c.distance(position)).fold(0.0, f64::max);
+    (NEAR * reach).max(f64::MIN_POSITIVE)
 }
 
 /// The place in the plane at distance 1 ahead of what `clip`, a perspective view without crop, shows there.

@@ -7,7 +7,7 @@
 use super::perspective::Perspective;
 use super::rect::{Crop, Rect};
 use super::{Fit, FitScene, Focus, LightView, NEAR};
-use crate::{bounds::Bounds, camera::CameraView, frustum::Frustum};
+use crate::{bounds::Bounds, frustum::Frustum};
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
 /// What of the plane of a paraboloid the map shows.
@@ -75,7 +75,7 @@ impl Paraboloid {
 pub(super) fn views(
     position: DVec3,
     near: f64,
-    camera: &CameraView,
+    seen: &Frustum,
     scene: &FitScene,
     fit: &Fit,
     views: &mut Vec<LightView>,
@@ -84,7 +84,7 @@ pub(super) fn views(
         let clip_from_world = Perspective { position, forward, up: DVec3::Z, near }.clip_from_world();
         let rect = match fit.focus {
             Focus::Light => Some(Rect::around(1.0)),
-            Focus::Visible => visible(position, forward, &clip_from_world, camera, &scene.receivers),
+            Focus::Visible => visible(position, forward, &clip_from_world, seen, &scene.receivers),
         };
         if let Some(rect) = rect {
             let Crop { scale, moved } = Crop::to(rect, fit);
@@ -99,11 +99,10 @@ fn visible(
     position: DVec3,
     forward: DVec3,
     clip_from_world: &DMat4,
-    camera: &CameraView,
+    seen: &Frustum,
     receivers: &[Bounds],
 ) -> Option<Rect> {
     let hemisphere = Frustum::bounded_by(vec![forward.extend(-forward.dot(position))]);
-    let seen = Frustum::of(&camera.clip_from_world());
     let both = seen.clone().and(&hemisphere);
     let (mut corners, mut plane) = (Vec::new(), Vec::new());
     for bounds in receivers {
@@ -114,7 +113,7 @@ fn visible(
             .map(|p| *clip_from_world * p.extend(1.0))
             .filter_map(|clip| DVec3::new(clip.x, clip.y, clip.w.max(0.0)).try_normalize())
             .collect();
-        if !ways.is_empty() && is_seen_inside(bounds, &seen, position) {
+        if !ways.is_empty() && is_seen_inside(bounds, seen, position) {
             return Some(Rect::around(1.0));
         }
         outline(&ways, &mut plane);

@@ -1,38 +1,58 @@
 //! Orthographic views of parallel light.
 
-use super::rect::{Crop, Rect};
+use super::rect::{Crop, Rect, Steps};
 use super::{Fit, FitScene, Focus, LightView};
-use crate::{bounds::Bounds, camera::CameraView, frustum::Frustum};
+use crate::{bounds::Bounds, frustum::Frustum};
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
 /// The view of a light at infinity that travels along `direction`.
-pub(super) fn view(direction: DVec3, camera: &CameraView, scene: &FitScene, fit: &Fit) -> Option<LightView> {
+pub(super) fn view(direction: DVec3, seen: &Frustum, scene: &FitScene, fit: &Fit) -> Option<LightView> {
     let mut points = Vec::new();
     match fit.focus {
         Focus::Light => points.extend(scene.receivers.iter().flat_map(Bounds::corners)),
-        Focus::Visible => {
-            let seen = Frustum::of(&camera.clip_from_world());
-            scene.receivers.iter().for_each(|b| seen.clip_box(b, &mut points));
-        }
+        Focus::Visible => scene.receivers.iter().for_each(|b| seen.clip_box(b, &mut points)),
     }
     let (right, up) = tightest_axes(direction, &points, fit.focus);
-    let rect = Rect::of(points.iter().map(|p| DVec2::new(right.dot(*p), up.dot(*p))))?;
+    let rect = Rect::of(points.iter().map(|p| DVec2::new(right.dot(*p), up.dot(*p))))?.grown(fit.border_m);
     // Heights along the way the light travels: from the first caster to the last receiver.
     let height = |p: DVec3| direction.dot(p);
     let last = points.iter().map(|p| height(*p)).fold(f64::NEG_INFINITY, f64::max);
     let corners = scene.casters.iter().flat_map(Bounds::corners).chain(points.iter().copied());
     let first = corners.map(height).fold(f64::INFINITY, f64::min);
+    let crop = Crop::to(rect, fit);
+    Some(LightView::of(crop.matrix() * light_from_world([right, up, direction], [first, last]), fit.size, 0))
+}
+
+/// The view of a light at infinity that stands still: its texels lie on a grid that depends on their size alone, and its
+/// heights are those of everything. `center` and `radius` are of what it has to show.
+pub(super) fn steady(
+    direction: DVec3,
+    (center, radius): (DVec3, f64),
+    scene: &FitScene,
+    steps: &Steps,
+    fit: &Fit,
+) -> LightView {
+    let (right, up) = (direction.any_orthonormal_vector(), direction.any_orthonormal_vector().cross(direction));
+    let rect = steps.rect(DVec2::new(right.dot(center), up.dot(center)), radius + fit.border_m, fit);
+    let heights = scene.around.corners().map(|p| direction.dot(p));
+    let ends =
+        [heights.into_iter().fold(f64::INFINITY, f64::min), heights.into_iter().fold(f64::NEG_INFINITY, f64::max)];
+    LightView::of(Crop::whole(rect).matrix() * light_from_world([right, up, direction], ends), fit.size, 0)
+}
+
+/// World to a space whose depth falls from 1 at the first of two heights along the light to 0 at the last, and a little more to
+/// both sides.
+fn light_from_world([right, up, direction]: [DVec3; 3], [first, last]: [f64; 2]) -> DMat4 {
     let margin = ((last - first) * 1e-4).max(1e-9 * (1.0 + first.abs().max(last.abs())));
     let (first, last) = (first - margin, last + margin);
     let depth = 1.0 / (last - first);
-    let light_from_world = DMat4::from_cols(
+    DMat4::from_cols(
         right.extend(0.0),
         up.extend(0.0),
         (-direction * depth).extend(last * depth),
         DVec4::new(0.0, 0.0, 0.0, 1.0),
     )
-    .transpose();
-    Some(LightView::of(Crop::to(rect, fit).matrix() * light_from_world, fit.size, 0))
+    .transpose()
 }
 
 /// Two axes across `direction` that give the points a small rectangle. A focus on the light keeps fixed axes, so that

@@ -1,8 +1,8 @@
 //! Perspective views: a spot's, and the faces of a cube or tetrahedron.
 
-use super::rect::{Crop, Rect};
+use super::rect::{Crop, Rect, Steps};
 use super::{Fit, FitScene, Focus, LightView, Omni, divided};
-use crate::{bounds::Bounds, camera::CameraView, frustum::Frustum};
+use crate::{bounds::Bounds, frustum::Frustum};
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
 /// Widest half angle of a single perspective view, as a tangent: 60 degrees. A spot that has to cover more gets
@@ -57,7 +57,7 @@ fn whole(omni: Omni) -> Rect {
 pub(super) fn views(
     position: DVec3,
     near: f64,
-    camera: &CameraView,
+    seen: &Frustum,
     scene: &FitScene,
     fit: &Fit,
     views: &mut Vec<LightView>,
@@ -68,7 +68,7 @@ pub(super) fn views(
         let rect = match fit.focus {
             Focus::Light => Some(whole(fit.omni)),
             Focus::Visible => {
-                face.visible(camera, &scene.receivers, &nearest_to(position, forward, &axes), whole(fit.omni))
+                face.visible(seen, &scene.receivers, &nearest_to(position, forward, &axes), whole(fit.omni))
             }
         };
         if let Some(rect) = rect {
@@ -100,10 +100,18 @@ impl Perspective {
         DMat4::from_cols(row(right), row(up), DVec4::new(0.0, 0.0, 0.0, self.near), row(self.forward)).transpose()
     }
 
+    /// What the camera sees of the receivers within the widest view that there is; `None` where that is nothing.
+    fn cropped(&self, seen: &Frustum, scene: &FitScene, fit: &Fit) -> Option<LightView> {
+        let tangents = DMat4::from_scale(DVec3::new(1.0 / WIDEST, 1.0 / WIDEST, 1.0));
+        let opening = Frustum::of(&(tangents * self.clip_from_world()));
+        let rect = self.visible(seen, &scene.receivers, &opening, Rect::around(WIDEST))?;
+        Some(LightView::of(Crop::to(rect, fit).matrix() * self.clip_from_world(), fit.size, 0))
+    }
+
     /// What the camera sees of the receivers within `opening`, as far as that is in `whole`.
-    fn visible(&self, camera: &CameraView, receivers: &[Bounds], opening: &Frustum, whole: Rect) -> Option<Rect> {
+    fn visible(&self, seen: &Frustum, receivers: &[Bounds], opening: &Frustum, whole: Rect) -> Option<Rect> {
         let clip_from_world = self.clip_from_world();
-        let both = Frustum::of(&camera.clip_from_world()).and(opening);
+        let both = seen.clone().and(opening);
         let mut points = Vec::new();
         for bounds in receivers {
             both.clip_box(bounds, &mut points);
@@ -115,28 +123,43 @@ impl Perspective {
     }
 }
 
+/// The view of a spot that no cone wider than a single view asks for: what is seen outside of that is not covered.
+pub(super) fn within_widest(
+    position: DVec3,
+    direction: DVec3,
+    near: f64,
+    seen: &Frustum,
+    scene: &FitScene,
+    fit: &Fit,
+) -> Option<LightView> {
+    Perspective { position, forward: direction, up: direction.any_orthonormal_vector(), near }.cropped(seen, scene, fit)
+}
+
+/// Whether a cone fits a single view.
+pub(super) fn is_narrow(outer_angle_deg: f64) -> bool {
+    (0.0..=WIDEST).contains(&outer_angle_deg.to_radians().tan())
+}
+
 /// The single view of a spot; `None` where it would have to be wider than such a view can be.
 pub(super) fn spot(
     position: DVec3,
     direction: DVec3,
     outer_angle_deg: f64,
     near: f64,
-    camera: &CameraView,
+    seen: &Frustum,
     scene: &FitScene,
     fit: &Fit,
 ) -> Option<LightView> {
     let view = Perspective { position, forward: direction, up: direction.any_orthonormal_vector(), near };
     let rect = match fit.focus {
         Focus::Light => {
-            let tangent = outer_angle_deg.to_radians().tan();
-            if !(0.0..=WIDEST).contains(&tangent) {
+            if !is_narrow(outer_angle_deg) {
                 return None;
             }
-            Rect::around(tangent)
+            Rect::around(outer_angle_deg.to_radians().tan())
         }
         Focus::Visible => {
             let mut points = Vec::new();
-            let seen = Frustum::of(&camera.clip_from_world());
             scene.receivers.iter().for_each(|b| seen.clip_box(b, &mut points));
             let inside = |p: &DVec3| {
                 let clip = view.clip_from_world() * p.extend(1.0);
@@ -145,10 +168,26 @@ pub(super) fn spot(
             if !points.iter().all(inside) {
                 return None;
             }
-            let tangents = DMat4::from_scale(DVec3::new(1.0 / WIDEST, 1.0 / WIDEST, 1.0));
-            let opening = Frustum::of(&(tangents * view.clip_from_world()));
-            view.visible(camera, &scene.receivers, &opening, Rect::around(WIDEST))?
+            return view.cropped(seen, scene, fit);
         }
     };
     Some(LightView::of(Crop::to(rect, fit).matrix() * view.clip_from_world(), fit.size, 0))
 }
+
+/// The same view on a grid of texels that depends on their size alone, which is one of a few: a square that holds what `view` shows.
+pub(super) fn steady(view: &LightView, steps: &Steps, fit: &Fit) -> LightView {
+    // The view from the same place without a crop is what texels are counted in.
+    let clip = view.clip_from_world;
+    let (across, up, ahead) = (clip.row(0), clip.row(1), clip.row(3));
+    let straight = DVec2::new(across.truncate().dot(ahead.truncate()), up.truncate().dot(ahead.truncate()));
+    let scale =
+        DVec2::new((across - ahead * straight.x).truncate().length(), (up - ahead * straight.y).truncate().length());
+    let (center, half) = (-straight / scale, scale.recip());
+    let size = SIZE_STEP.powf(half.max_element().log(SIZE_STEP).ceil());
+    let rect = steps.rect(center, size, fit);
+    let crop = Crop::whole(rect).after(&Crop { scale, moved: straight });
+    LightView { clip_from_world: crop.matrix() * clip, ..view.clone() }
+}
+
+/// Steady views of a spot come in sizes of which each is so many times the one before.
+const SIZE_STEP: f64 = 1.414_213_562_373_095_1;

@@ -16,6 +16,11 @@ impl Rect {
         Self { min: DVec2::splat(-half), max: DVec2::splat(half) }
     }
 
+    /// Larger by `margin` to all sides.
+    pub fn grown(self, margin: f64) -> Self {
+        Self { min: self.min - margin, max: self.max + margin }
+    }
+
     /// Around all points; `None` where there are none.
     pub fn of(points: impl Iterator<Item = DVec2>) -> Option<Self> {
         let empty = Self { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY };
@@ -44,6 +49,18 @@ impl Crop {
         Self { scale, moved: -center * scale }
     }
 
+    /// Stretches `rect` to the whole of clip space.
+    pub fn whole(rect: Rect) -> Self {
+        let scale = 2.0 / (rect.max - rect.min);
+        Self { scale, moved: -(rect.min + rect.max) * 0.5 * scale }
+    }
+
+    /// This crop of the whole that `other` is a crop of.
+    pub fn after(&self, other: &Self) -> Self {
+        let scale = self.scale / other.scale;
+        Self { scale, moved: self.moved - other.moved * scale }
+    }
+
     pub fn matrix(&self) -> DMat4 {
         DMat4::from_cols(
             DVec4::new(self.scale.x, 0.0, 0.0, 0.0),
@@ -51,5 +68,25 @@ impl Crop {
             DVec4::Z,
             DVec4::new(self.moved.x, self.moved.y, 0.0, 1.0),
         )
+    }
+}
+
+/// How views that stand still move on: in steps, so that every texel stays what it was or leaves the map.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Steps {
+    /// Texels that the map moves at a time, at least 1; as many are kept free around what it has to show.
+    pub texels: f64,
+}
+
+impl Steps {
+    /// A square around what lies within `radius` of `center`, and the border.
+    pub fn rect(&self, center: DVec2, radius: f64, fit: &Fit) -> Rect {
+        let size = f64::from(fit.size.max(1));
+        let free = fit.border_texels.max(0.0) + 0.5 * self.texels.max(1.0);
+        let texel = 2.0 * radius.max(1e-9) / (size - 2.0 * free.min(size * 0.375));
+        let step = texel * self.texels.max(1.0).floor();
+        let center = (center / step).round() * step;
+        let half = DVec2::splat(0.5 * size * texel);
+        Rect { min: center - half, max: center + half }
     }
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::camera::Camera;
+use crate::camera::{Camera, CameraView};
 use glam::DVec2;
 
 mod omni;
@@ -15,14 +15,14 @@ fn crate_above() -> Bounds {
 }
 
 fn scene() -> FitScene {
-    FitScene { casters: vec![crate_above()], receivers: vec![floor(), crate_above()] }
+    FitScene::new(vec![crate_above()], vec![floor(), crate_above()])
 }
 
 fn fit_of(light: &LightShape, focus: Focus, omni: Omni, border_texels: f64) -> (Vec<LightView>, Option<Omni>) {
     let camera = Camera { eye: DVec3::new(0.0, 6.0, 12.0), ..Camera::default() };
     let mut views = Vec::new();
-    let fit_to = Fit { focus, omni, size: 512, border_texels };
-    let layers = fit(light, &camera.view(640, 480), &scene(), &fit_to, &mut views);
+    let fit_to = Fit { focus, omni, size: 512, border_texels, border_m: 0.0 };
+    let layers = fit(light, &camera.view(640, 480).frustum(), &scene(), &fit_to, &mut views);
     (views, layers)
 }
 
@@ -73,12 +73,12 @@ fn a_spot_covers_what_is_seen_even_outside_its_cone() {
 fn nothing_to_see_needs_no_view() {
     let mut views = vec![];
     let camera = Camera::default().view(4, 3);
-    let fit_to = Fit { focus: Focus::Visible, omni: Omni::Cube, size: 16, border_texels: 0.0 };
+    let fit_to = Fit { focus: Focus::Visible, omni: Omni::Cube, size: 16, border_texels: 0.0, border_m: 0.0 };
     for light in [
         LightShape::Point { position: DVec3::ZERO },
         LightShape::Directional { direction: DVec3::NEG_Y, angle_deg: 0.0 },
     ] {
-        fit(&light, &camera, &FitScene::default(), &fit_to, &mut views);
+        fit(&light, &camera.frustum(), &FitScene::default(), &fit_to, &mut views);
         assert!(views.is_empty());
     }
     // All of the scene is behind the camera: no room for six faces has to be made.
@@ -87,7 +87,7 @@ fn nothing_to_see_needs_no_view() {
     let spot = LightShape::Spot { position, direction: DVec3::NEG_Y, inner_angle_deg: 5.0, outer_angle_deg: 6.0 };
     for light in [LightShape::Point { position }, spot] {
         for omni in OMNI {
-            let layers = fit(&light, &away.view(4, 3), &scene(), &Fit { omni, ..fit_to }, &mut views);
+            let layers = fit(&light, &away.view(4, 3).frustum(), &scene(), &Fit { omni, ..fit_to }, &mut views);
             assert!(views.is_empty() && layers.is_none(), "{light:?} {omni:?}");
         }
     }

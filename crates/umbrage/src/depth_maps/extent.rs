@@ -110,14 +110,14 @@ fn turned_border(view: &LightView, angle: f64) -> f64 {
     along(axis.x, per_texel.x).max(along(axis.y, per_texel.y))
 }
 
-/// The largest depth that a map can hold, from the boxes around the casters. Of views from a point: near / distance, not along the
-/// axis.
-pub(super) fn nearest(maps: &DepthMaps) -> f32 {
-    let deepest = maps.views.iter().map(|view| match view.is_perspective() {
-        true => near(view) / nearest_distance(view, &maps.scene.casters),
-        false => first_depth(view, &maps.scene.casters),
-    });
-    deepest.fold(0.0, f64::max).min(1.0) as f32
+/// The largest depth that the map of a view can hold, from the boxes around the casters. Of views from a point: near / distance, not
+/// along the axis.
+pub(super) fn nearest(view: &LightView, casters: &[Bounds]) -> f32 {
+    let deepest = match view.is_perspective() {
+        true => near(view) / nearest_distance(view, casters),
+        false => first_depth(view, casters),
+    };
+    deepest.clamp(0.0, 1.0) as f32
 }
 
 /// From the light to the nearest caster that the view may show, at least that of the near plane; infinity without any.
@@ -144,12 +144,12 @@ mod tests {
     #[test]
     fn a_turned_border_shows_what_is_so_many_degrees_outside() {
         let floor = Bounds { min: DVec3::new(-9.0, -2.0, -9.0), max: DVec3::new(9.0, -1.0, 9.0) };
-        let scene = FitScene { casters: vec![floor], receivers: vec![floor] };
+        let scene = FitScene::new(vec![floor], vec![floor]);
         let light = LightShape::Point { position: DVec3::ZERO };
         for (omni, side) in [(Omni::Cube, 45.0_f64), (Omni::DualParaboloid, 90.0)] {
-            let mut to_fit = Fit { focus: Focus::Light, omni, size: 1000, border_texels: 0.0 };
+            let mut to_fit = Fit { focus: Focus::Light, omni, size: 1000, border_texels: 0.0, border_m: 0.0 };
             let mut views = Vec::new();
-            let camera = Camera::default().view(4, 3);
+            let camera = Camera::default().view(4, 3).frustum();
             let mut down = |border_texels| {
                 to_fit.border_texels = border_texels;
                 fit(&light, &camera, &scene, &to_fit, &mut views);

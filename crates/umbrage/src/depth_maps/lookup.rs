@@ -1,8 +1,8 @@
 //! The full-screen pass that compares receivers with the maps.
 
-use super::DepthMaps;
 use super::phases::{OpenPixels, Phase};
 use super::uniforms::MapLookup;
+use super::{DepthMaps, Layers};
 use crate::{
     fullscreen::{Fullscreen, UNIFORM, bind, layout},
     gpu::Gpu,
@@ -12,7 +12,7 @@ use crate::{
     view::View,
     visibility::VisibilityTarget,
 };
-use umbrage_core::{LightShape, light_view::Omni};
+use umbrage_core::LightShape;
 
 /// Pipelines (one for each combination that came up) and the uniforms of the pass.
 pub(crate) struct Lookup {
@@ -39,7 +39,7 @@ struct Variant {
     /// The light is a ball of some kind, which turns the same side to all.
     round: bool,
     perspective: bool,
-    layout: Option<Omni>,
+    layout: Layers,
     linear: bool,
     has_normals: bool,
 }
@@ -49,12 +49,12 @@ impl Lookup {
         gpu: &Gpu,
         shader: &Shader,
         bias: f64,
-        constants: &[(&'static str, f64)],
+        constants: Vec<(&'static str, f64)>,
         more: Option<wgpu::BindGroupLayout>,
     ) -> Self {
         Self {
             module: shader.module(gpu),
-            constants: constants.to_vec(),
+            constants,
             bias,
             layout: lookup_layout(gpu),
             more,
@@ -63,7 +63,7 @@ impl Lookup {
             uniforms: gpu.buffer(
                 "map lookup",
                 &[MapLookup::default()],
-                wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+                wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
             ),
             data: MapLookup::default(),
             sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
@@ -105,6 +105,16 @@ impl Lookup {
         }
     }
 
+    /// The uniforms of [`MapLookup`].
+    pub(super) fn uniforms(&self) -> &wgpu::Buffer {
+        &self.uniforms
+    }
+
+    /// Before [`Lookup::record`].
+    pub(super) fn upload(&self, passes: &mut Passes<'_>) {
+        passes.upload(&self.uniforms, bytemuck::bytes_of(&self.data));
+    }
+
     /// Writes 1 everywhere where there is nothing to look up. `more` is what the technique binds as group 2.
     pub(crate) fn record(
         &self,
@@ -113,7 +123,6 @@ impl Lookup {
         more: Option<&wgpu::BindGroup>,
         visibility: &VisibilityTarget,
     ) {
-        passes.upload(&self.uniforms, bytemuck::bytes_of(&self.data));
         let open = self.open.as_ref().filter(|_| self.current.is_some()).and_then(OpenPixels::attachment);
         let mut pass = passes.render("visibility", &[visibility.overwrite()], open);
         if let (Some(current), Some((_, bind_group))) = (self.current, &self.bind_group) {
@@ -146,7 +155,7 @@ impl Lookup {
         let on = |switch: bool| if switch { 1.0 } else { 0.0 };
         constants.push(("ROUND", on(variant.round)));
         constants.push(("PERSPECTIVE", on(variant.perspective)));
-        constants.push(("LAYOUT", layout_number(variant.layout)));
+        constants.push(("LAYOUT", variant.layout.number()));
         constants.push(("LINEAR", on(variant.linear)));
         constants.push(("HAS_NORMALS", on(variant.has_normals)));
         let receivers = Receivers::layout(gpu);
@@ -173,16 +182,6 @@ impl Lookup {
             wgpu::BindingResource::Sampler(&self.sampler),
         ];
         bind(gpu, "map lookup", &self.layout, &resources)
-    }
-}
-
-/// `LAYOUT` in `wgsl/map_layers.wgsl`.
-fn layout_number(layout: Option<Omni>) -> f64 {
-    match layout {
-        None => 0.0,
-        Some(Omni::Cube) => 1.0,
-        Some(Omni::Tetrahedral) => 2.0,
-        Some(Omni::DualParaboloid) => 3.0,
     }
 }
 

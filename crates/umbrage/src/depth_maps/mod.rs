@@ -11,11 +11,13 @@ mod params;
 mod phases;
 mod pipelines;
 mod soft;
+mod split_fit;
 mod stage;
 mod submission;
 mod taps;
 mod textures;
 mod uniforms;
+mod views;
 
 use crate::{
     casters::{self, Casters},
@@ -30,31 +32,39 @@ use crate::{
 };
 pub(crate) use bounds::BOUNDS_SHADER;
 use cache::{Frame, Work};
+use extent::LightExtent;
 use layer::{Layer, Lists};
 use lookup::Lookup;
 use movers::Movers;
 pub(crate) use params::{BIAS, CACHE, DEPTH, FACES, FOCUS, OMNI, SIZE};
 use pipelines::{Kind, Pipelines};
 pub(crate) use soft::TapStage;
+pub(crate) use split_fit::SPLIT_FIT_SHADER;
+use split_fit::SplitFitter;
 pub(crate) use stage::Stage;
 use submission::Submission;
 pub(crate) use taps::{GRADIENT_NOISE, NOISE, TESTS, TILE, Taps};
 use textures::Textures;
 use uniforms::MapView;
 pub(crate) use uniforms::{Eye, LOOKUP_LAYOUTS, TAP_LAYOUTS};
+pub(crate) use views::Layers;
+use views::Views;
 
 /// The shaders that render maps, for the registry's tests.
 pub(crate) const SHADERS: [Shader; 3] = [pipelines::DEPTH_SHADER, pipelines::SECOND_SHADER, pipelines::MIDPOINT_SHADER];
 
-use umbrage_core::light_view::{Fit, FitScene, Focus, LightView, Omni, fit};
+use umbrage_core::light_view::{FitScene, Focus, LightView, Omni};
 use umbrage_core::{Bounds, Frustum, LightKind, LightKinds, glam::DVec3, scene_tree::Sphere};
 
 /// Names of the pictures inside, one a layer.
-pub(crate) const LAYER_NAMES: [&str; 6] = ["map-0", "map-1", "map-2", "map-3", "map-4", "map-5"];
+pub(crate) const LAYER_NAMES: [&str; 9] =
+    ["map-0", "map-1", "map-2", "map-3", "map-4", "map-5", "map-6", "map-7", "map-8"];
 
 /// A technique that renders depth maps and looks them up in one full-screen pass; techniques differ in the shader.
 pub(crate) struct MapTechnique {
     maps: DepthMaps,
+    /// For splits that are fitted on the GPU.
+    fitter: Option<SplitFitter>,
     stage: Option<Box<dyn Stage>>,
     lookup: Lookup,
     draws: u32,
@@ -83,8 +93,10 @@ impl MapTechnique {
     ) -> Result<Self, Error> {
         let maps = DepthMaps::new(gpu, settings, reach_texels)?;
         let more = stage.as_ref().map(|s| s.layout().clone());
+        let constants = [constants, &[("BLEND", maps.choice.blend())]].concat();
         let lookup = Lookup::new(gpu, shader, settings.float("bias"), constants, more);
-        Ok(Self { maps, stage, lookup, draws: 0 })
+        let fitter = maps.choice.is_fitted_to_depth().then(|| SplitFitter::new(gpu, lookup.uniforms()));
+        Ok(Self { maps, fitter, stage, lookup, draws: 0 })
     }
 
     /// Looks up in two phases, see `wgsl/map_quick.wgsl`.
@@ -113,12 +125,20 @@ impl Technique for MapTechnique {
             stage.prepare(gpu, view, &self.maps)?;
         }
         self.lookup.prepare(gpu, view, &self.maps);
+        if let Some(fitter) = &mut self.fitter {
+            fitter.prepare(view, &self.maps);
+        }
         Ok(())
     }
 
     fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
         visibility.check(view.receivers)?;
-        self.draws = self.maps.record(passes, view.casters) + 1;
+        self.lookup.upload(passes);
+        let fitter = self.fitter.as_ref().filter(|_| matches!(self.maps.layout, Layers::Splits(_)));
+        if let Some(fitter) = fitter {
+            fitter.record(passes, view.receivers);
+        }
+        self.draws = self.maps.record(passes, view.casters, fitter) + 1;
         let mut more = None;
         if let Some(stage) = &mut self.stage {
             self.draws += stage.record(passes, &self.maps);
@@ -132,6 +152,7 @@ impl Technique for MapTechnique {
         let mut stats = self.maps.stats();
         stats.draws = self.draws;
         stats.triangles += 1;
+        stats.bytes += self.fitter.as_ref().map_or(0, SplitFitter::bytes);
         stats.bytes += self.lookup.bytes() + self.stage.as_ref().map_or(0, |s| s.bytes());
         stats
     }
@@ -140,11 +161,19 @@ impl Technique for MapTechnique {
         &self.maps.views
     }
 
+    fn split_distances(&self) -> &[f64] {
+        self.maps.borders.get(1..self.maps.borders.len().saturating_sub(1)).unwrap_or_default()
+    }
+
     fn debug_views(&self) -> Vec<DebugView<'_>> {
         let Some(textures) = &self.maps.textures else { return Vec::new() };
         let texture = textures.result();
         let layers = self.maps.views.iter();
-        let maps = layers.map(|v| DebugView { name: LAYER_NAMES[v.layer as usize % 6], texture, layer: v.layer });
+        let maps = layers.map(|v| DebugView {
+            name: LAYER_NAMES[v.layer as usize % LAYER_NAMES.len()],
+            texture,
+            layer: v.layer,
+        });
         maps.chain(self.stage.iter().flat_map(|s| s.debug_views())).collect()
     }
 }
@@ -153,11 +182,12 @@ impl Technique for MapTechnique {
 pub(crate) struct DepthMaps {
     pub(crate) size: u32,
     midpoint: bool,
-    focus: Focus,
-    omni: Omni,
+    choice: Views,
     /// Maps seen from a point fall linearly with the distance.
     linear: bool,
     border_texels: f64,
+    /// Kept free besides in this frame, for the light's extent.
+    soft_texels: f64,
     /// Draws casters too that can shadow nothing: for the baseline.
     every_caster: bool,
     /// Keeps room for the light's extent.
@@ -167,8 +197,10 @@ pub(crate) struct DepthMaps {
     /// The boxes that this frame's views were fitted to.
     pub(crate) scene: FitScene,
     pub(crate) views: Vec<LightView>,
-    /// What the layers are, `None` for a single view.
-    pub(crate) layout: Option<Omni>,
+    /// What the layers are.
+    pub(crate) layout: Layers,
+    /// Distances along the camera's view between views that split it.
+    borders: Vec<f64>,
     layers: Vec<Layer>,
     lists: Lists,
     /// Keeps what did not change.
@@ -190,23 +222,26 @@ impl DepthMaps {
         let size = settings.int("size").clamp(1, i64::from(u32::MAX)) as u32;
         gpu.check_size("a shadow map", size, size)?;
         let faces = settings.choice("faces");
+        let choice = Views::of(settings);
         Ok(Self {
             size,
             midpoint: faces == "midpoint",
-            focus: if settings.choice("focus") == "light" { Focus::Light } else { Focus::Visible },
-            omni: params::omni(settings),
+            choice,
             linear: settings.choice("depth") == "linear",
             border_texels: reach_texels + 1.0,
+            soft_texels: 0.0,
             every_caster: false,
             soft: false,
             pipelines: Pipelines::new(gpu, faces == "back", faces == "midpoint"),
             textures: None,
             scene: FitScene::default(),
             views: Vec::new(),
-            layout: None,
+            layout: Layers::Single,
+            borders: Vec::new(),
             layers: Vec::new(),
             lists: Lists::default(),
-            cache: settings.switch("cache"),
+            // What is fitted on the GPU is another view in every frame.
+            cache: settings.switch("cache") && !choice.is_fitted_to_depth(),
             movers: Movers::default(),
             submission: Submission::default(),
             recorded: false,
@@ -220,17 +255,17 @@ impl DepthMaps {
             self.layers.iter_mut().for_each(Layer::forget);
         }
         self.gather(view);
-        let (focus, omni, size) = (self.focus, self.omni, self.size);
-        let mut to_fit = Fit { focus, omni, size, border_texels: self.border_texels };
         self.views.clear();
+        self.borders.clear();
         if !view.light.casts || self.scene.casters.is_empty() {
             self.forget_unseen();
             return Ok(());
         }
-        self.layout = fit(&view.light.shape, &view.camera, &self.scene, &to_fit, &mut self.views);
+        self.fit(view, self.border_texels);
+        self.soft_texels = 0.0;
         if self.soft && !self.views.is_empty() {
-            to_fit.border_texels += extent::light_border(&view.light.shape, self);
-            self.layout = fit(&view.light.shape, &view.camera, &self.scene, &to_fit, &mut self.views);
+            self.soft_texels = extent::light_border(&view.light.shape, self);
+            self.fit(view, self.border_texels + self.soft_texels);
         }
         self.forget_unseen();
         if !self.views.is_empty() {
@@ -266,21 +301,22 @@ impl DepthMaps {
 
     /// The boxes that views are fitted to.
     fn gather(&mut self, view: &View<'_>) {
-        let FitScene { casters, receivers } = &mut self.scene;
+        let FitScene { casters, receivers, around } = &mut self.scene;
+        *around = view.casters.all_bounds();
         casters.clear();
         view.casters.casting().cut(&EVERYWHERE, MOST_BOXES, casters);
         receivers.clear();
         let receiving = view.casters.receiving();
-        match self.focus {
+        match self.choice.focus() {
             Focus::Light => receiving.cut(&EVERYWHERE, MOST_BOXES, receivers),
-            Focus::Visible => receiving.cut(&Frustum::of(&view.camera.clip_from_world()), MOST_BOXES, receivers),
+            Focus::Visible => receiving.cut(&view.camera.frustum(), MOST_BOXES, receivers),
         }
     }
 
     /// Pipelines, layers and textures for the views.
     fn make_room(&mut self, gpu: &Gpu) {
         self.pipelines.prepare(gpu, self.kind());
-        let count = self.layout.map_or(1, Omni::layers);
+        let count = self.layout.count();
         self.layers.resize_with(self.layers.len().max(count as usize), Layer::default);
         if self.textures.as_ref().is_none_or(|t| t.layers() < count) {
             self.textures = Some(Textures::new(gpu, &self.pipelines, self.size, count, self.midpoint));
@@ -289,7 +325,7 @@ impl DepthMaps {
     }
 
     /// Renders the maps; returns the number of draws.
-    fn record(&mut self, passes: &mut Passes<'_>, casters: &Casters) -> u32 {
+    fn record(&mut self, passes: &mut Passes<'_>, casters: &Casters, fitter: Option<&SplitFitter>) -> u32 {
         self.recorded = true;
         let Some(textures) = &self.textures else { return 0 };
         let (mut draws, mut triangles) = (0, 0);
@@ -303,6 +339,9 @@ impl DepthMaps {
             let i = view.layer as usize;
             let layer = &self.layers[i];
             passes.upload(&textures.uniforms[i].0, bytemuck::bytes_of(&layer.uniform));
+            if let Some(fitter) = fitter {
+                fitter.copy_matrix(passes, view.layer, &textures.uniforms[i].0);
+            }
             let rounds = self.pipelines.record(passes, casters, (numbers, layer), textures, i, self.kind());
             draws += rounds * layer.list.draws() + layer.rest.draws();
             triangles += u64::from(rounds) * layer.list.triangles(casters) + layer.rest.triangles(casters);
@@ -339,7 +378,7 @@ impl DepthMaps {
     /// What this frame's views need: all of a light are alike.
     fn kind(&self) -> Kind {
         let perspective = self.is_from_a_point();
-        let paraboloid = self.layout == Some(Omni::DualParaboloid);
+        let paraboloid = self.layout == Layers::Omni(Omni::DualParaboloid);
         Kind { perspective, paraboloid, linear: self.linear && perspective }
     }
 

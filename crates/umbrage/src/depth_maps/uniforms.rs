@@ -3,6 +3,7 @@
 use super::DepthMaps;
 use super::extent::{LightExtent, nearest};
 use crate::{shader::shader_struct, view::View};
+use umbrage_core::Bounds;
 use umbrage_core::glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use umbrage_core::light_view::{FARTHEST, LightView, Paraboloid};
 
@@ -33,9 +34,9 @@ shader_struct! {
     pub(crate) struct MapLayer {
         map_from_ndc: [[f32; 4]; 4],
         slope_right: [f32; 3],
-        pad_a: f32,
+        per_metre: f32,
         slope_down: [f32; 3],
-        pad_b: f32,
+        nearest: f32,
         slope_axis: [f32; 3],
         pad_c: f32,
         texel_right: [f32; 3],
@@ -52,18 +53,18 @@ shader_struct! {
     /// See `wgsl/map_layers.wgsl`.
     pub(crate) struct MapLookup {
         eye: Eye,
-        layers: [MapLayer; 6],
+        layers: [MapLayer; MOST_LAYERS],
         from_light: [[f32; 4]; 4],
         rounding: [f32; 2],
-        per_metre: [f32; 2],
         size: f32,
         bias: f32,
         caster_rounding: f32,
-        nearest: f32,
         farthest: f32,
-        pad_a: f32,
-        pad_b: f32,
-        pad_c: f32,
+        last_split: f32,
+        softness: f32,
+        view_distance: [f32; 4],
+        splits: [[f32; 4]; 2],
+        blends: [[f32; 4]; 2],
         light: LightExtent,
     }
 }
@@ -123,10 +124,10 @@ impl MapLookup {
         let eye_from_ndc = view.clip_from_eye().inverse();
         // A layer that was not rendered sends every point outside of the map, where all is lit.
         let outside = DMat4::from_cols(DVec4::ZERO, DVec4::ZERO, DVec4::ZERO, DVec4::new(-1.0, -1.0, 0.0, 1.0));
-        let mut layers = [MapLayer { map_from_ndc: matrix(&outside), ..MapLayer::default() }; 6];
+        let mut layers = [MapLayer { map_from_ndc: matrix(&outside), ..MapLayer::default() }; MOST_LAYERS];
         let world_from_ndc = DMat4::from_translation(view.camera.eye) * eye_from_ndc;
         for v in &maps.views {
-            layers[v.layer as usize] = MapLayer::new(v, &world_from_ndc);
+            layers[v.layer as usize] = MapLayer::of(v, &world_from_ndc, &maps.scene.casters);
         }
         let center = view.light.shape.center();
         let from_light = DMat4::from_translation(view.camera.eye * center.w - center.truncate()) * eye_from_ndc;
@@ -136,18 +137,43 @@ impl MapLookup {
             from_light: matrix(&from_light),
             size: maps.size as f32,
             rounding: rounding(maps),
-            per_metre: per_metre(maps),
             bias: bias as f32,
             caster_rounding: (maps.largest_coordinate(view) * 2.4e-7 + storage_rounding(maps)) as f32,
-            nearest: nearest(maps),
             farthest: FARTHEST as f32,
+            softness: maps.choice.softness_m() as f32,
             light: LightExtent::of(&view.light.shape),
+            ..Self::splits(view, maps, &eye_from_ndc)
+        }
+    }
+}
+
+impl MapLookup {
+    /// What chooses the split of a pixel.
+    fn splits(view: &View<'_>, maps: &DepthMaps, eye_from_ndc: &DMat4) -> Self {
+        let [mut splits, mut blends] = [[f32::MAX; 8]; 2];
+        for (i, ends) in maps.borders.windows(2).take(maps.borders.len().saturating_sub(2)).enumerate().take(8) {
+            splits[i] = ends[1] as f32;
+            blends[i] = (ends[1] - maps.choice.overlap() * (ends[1] - ends[0])) as f32;
+        }
+        let halves = |v: [f32; 8]| [[v[0], v[1], v[2], v[3]], [v[4], v[5], v[6], v[7]]];
+        Self {
+            splits: halves(splits),
+            blends: halves(blends),
+            last_split: maps.borders.last().map_or(f32::MAX, |last| *last as f32),
+            view_distance: view_distance(view, eye_from_ndc),
             ..Self::default()
         }
     }
 }
 
+/// Most layers of a light's maps: as many as there may be splits.
+const MOST_LAYERS: usize = umbrage_core::splits::MOST_SPLITS;
+
 impl MapLayer {
+    pub(super) fn of(view: &LightView, world_from_ndc: &DMat4, casters: &[Bounds]) -> Self {
+        Self { nearest: nearest(view, casters), ..Self::new(view, world_from_ndc) }
+    }
+
     fn new(view: &LightView, world_from_ndc: &DMat4) -> Self {
         match &view.paraboloid {
             Some(paraboloid) => Self::paraboloid(view, paraboloid, world_from_ndc),
@@ -168,6 +194,7 @@ impl MapLayer {
             texel_down: row(1),
             texel_w: row(3),
             axis: axis(&map_from_world).as_vec4().to_array(),
+            per_metre: per_metre(view),
             ..Self::default()
         }
     }
@@ -186,6 +213,7 @@ impl MapLayer {
             texel_down: floats(down * per_unit.y + ahead * axis.y),
             texel_w: floats(ahead),
             axis: axis.extend(1.0 / per_unit.x).extend(1.0 / per_unit.y).as_vec4().to_array(),
+            per_metre: per_metre(view),
             ..Self::default()
         }
     }
@@ -253,7 +281,7 @@ impl Slopes {
 }
 
 /// Clip space to texels across and down, row 0 at the top.
-fn texels_from_clip(size: u32) -> DMat4 {
+pub(super) fn texels_from_clip(size: u32) -> DMat4 {
     let half = f64::from(size) * 0.5;
     DMat4::from_cols(
         DVec4::new(half, 0.0, 0.0, 0.0),
@@ -263,7 +291,12 @@ fn texels_from_clip(size: u32) -> DMat4 {
     )
 }
 
-fn matrix(m: &DMat4) -> [[f32; 4]; 4] {
+/// Takes normalised device coordinates to the distance along the view, times w.
+pub(super) fn view_distance(view: &View<'_>, eye_from_ndc: &DMat4) -> [f32; 4] {
+    (eye_from_ndc.transpose() * view.camera.forward().extend(0.0)).as_vec4().to_array()
+}
+
+pub(super) fn matrix(m: &DMat4) -> [[f32; 4]; 4] {
     m.as_mat4().to_cols_array_2d()
 }
 
@@ -274,12 +307,9 @@ pub(super) fn near(view: &LightView) -> f64 {
 
 /// How depth changes per metre along the light: perspective depth is near / distance, so its derivative is
 /// depth² / near; that of parallel depth is constant.
-fn per_metre(maps: &DepthMaps) -> [f32; 2] {
-    match maps.views.first() {
-        None => [0.0; 2],
-        Some(view) if view.is_perspective() => [(1.0 / near(view)) as f32, 0.0],
-        Some(view) => [0.0, view.clip_from_world.row(2).truncate().length() as f32],
-    }
+fn per_metre(view: &LightView) -> f32 {
+    let change = if view.is_perspective() { 1.0 / near(view) } else { view.clip_from_world.row(2).truncate().length() };
+    change as f32
 }
 
 /// Depth 0…1 in single precision; perspective depth keeps its relative precision, parallel depth does not. In a

@@ -85,7 +85,7 @@ fn reach_of(point: MapPoint, kernel: LightKernel, offset: vec2f, stored: f32) ->
     if PERSPECTIVE {
         return stored / max(point.depth + plane_step(point, kernel.facing, kernel.facing_bend, offset), 1e-3 * point.depth) - 1.0;
     }
-    return (stored - point.depth) / map.per_metre.y;
+    return (stored - point.depth) / map.layers[point.layer].per_metre;
 }
 
 fn is_above_horizon(kernel: LightKernel, at: vec2f) -> bool {

@@ -7,9 +7,11 @@ struct MapLayer {
     // What the normal of a plane has to do with the change of its stored depth per texel to the right and down, and
     // what that is to be divided by.
     slope_right: vec3f,
-    pad_a: f32,
+    // Change of stored depth per metre: of parallel views; in perspective, times the squared depth.
+    per_metre: f32,
     slope_down: vec3f,
-    pad_b: f32,
+    // Depth of the nearest caster there can be; from a point, near / distance.
+    nearest: f32,
     slope_axis: vec3f,
     pad_c: f32,
     // How a small way of the receiver's moves its homogeneous texel. Of a paraboloid, its axes are in `slope_right`, `slope_down` and
@@ -44,26 +46,28 @@ struct LightExtent {
 
 struct MapLookup {
     eye: Eye,
-    layers: array<MapLayer, 6>,
+    layers: array<MapLayer, 9>,
     // Camera's normalised device coordinates to the way from a point light, times w. Chooses the layer.
     from_light: mat4x4f,
     // Rounding of stored depth: relative, and absolute.
     rounding: vec2f,
-    // Change of stored depth per metre: times the squared depth, and constant.
-    per_metre: vec2f,
     // Texels across and down.
     size: f32,
     // Multiplies the automatic bias.
     bias: f32,
     // How far casters may be off by rounding, metres.
     caster_rounding: f32,
-    // Depth of the nearest caster there can be; from a point, near / distance.
-    nearest: f32,
     // Depth that linear maps store as 0.
     farthest: f32,
-    pad_a: f32,
-    pad_b: f32,
-    pad_c: f32,
+    // Distance along the view beyond which no split goes.
+    last_split: f32,
+    // Radius of filters, metres; 0 where it is in texels.
+    softness: f32,
+    // Takes the camera's normalised device coordinates to the distance along the view, times w.
+    view_distance: vec4f,
+    // Distances at which splits end, and at which they begin to give way to the next one.
+    splits: array<vec4f, 2>,
+    blends: array<vec4f, 2>,
     light: LightExtent,
 }
 
@@ -82,6 +86,40 @@ const SINGLE: u32 = 0u;
 const CUBE: u32 = 1u;
 const TETRAHEDRON: u32 = 2u;
 const PARABOLOIDS: u32 = 3u;
+const SPLITS: u32 = 4u;
+
+// How a split gives way to the next one: at once, pixel by pixel, or by mixing both.
+override BLEND: u32 = 0u;
+const DITHER: u32 = 1u;
+const LERP: u32 = 2u;
+
+// A pixel's split.
+struct Split {
+    layer: u32,
+    // Share of the next one.
+    next: f32,
+    is_covered: bool,
+}
+
+fn is_reached(borders: array<vec4f, 2>, distance: f32) -> u32 {
+    let ones = vec4u(1u);
+    let zeros = vec4u(0u);
+    let reached = select(zeros, ones, borders[0] <= vec4f(distance)) + select(zeros, ones, borders[1] <= vec4f(distance));
+    return reached.x + reached.y + reached.z + reached.w;
+}
+
+// By the distance along the view.
+fn split_at(distance: f32) -> Split {
+    let layer = is_reached(map.splits, distance);
+    var next = 0.0;
+    if BLEND != 0u {
+        // No border beyond the last split but one is ever reached.
+        let begin = map.blends[(layer >> 2u) & 1u][layer & 3u];
+        let end = map.splits[(layer >> 2u) & 1u][layer & 3u];
+        next = select(0.0, (distance - begin) / (end - begin), distance > begin && layer < 8u);
+    }
+    return Split(layer, next, distance <= map.last_split);
+}
 
 fn face_of_cube(direction: vec3f) -> u32 {
     let a = abs(direction);

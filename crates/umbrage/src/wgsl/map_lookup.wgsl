@@ -7,6 +7,11 @@ struct Pixel {
     surface: Surface,
 }
 
+// Interleaved gradient noise (Jimenez 2014), 0 to 1.
+fn gradient_noise(at: vec2f) -> f32 {
+    return fract(52.9829189 * fract(dot(at, vec2f(0.06711056, 0.00583715))));
+}
+
 struct MapPoint {
     // Texels; whole numbers are corners.
     texel: vec2f,
@@ -31,6 +36,9 @@ struct MapPoint {
 const CREASE: f32 = 0.5;
 // How steeply a surface may rise above the receiver's plane within a wide filter: a tangent.
 const BEND: f32 = 0.25;
+
+// Widest filter of a radius in metres.
+const MOST_TEXELS: f32 = 64.0;
 
 // Away from the axis, depth along it forgives more than depth along the ray: three times as much in the corners of a cube's face.
 // Paraboloids forgive that everywhere.
@@ -115,15 +123,35 @@ fn texel_step(layer: u32, place: vec4f, change: vec4f) -> vec3f {
     return change.xyw;
 }
 
+// The split of a pixel.
+fn split_of(pixel: Pixel) -> Split {
+    let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
+    return split_at(dot(map.view_distance, ndc) / eye_w(map.eye, ndc));
+}
+
 // For the surface that a pixel shows.
 fn map_point(pixel: Pixel) -> MapPoint {
+    if LAYOUT == SPLITS {
+        let split = split_of(pixel);
+        var layer = split.layer;
+        if BLEND == DITHER {
+            layer += select(0u, 1u, split.next > gradient_noise(pixel.at));
+        }
+        var point = map_point_in(pixel, layer);
+        point.is_covered &= split.is_covered;
+        return point;
+    }
+    if LAYOUT == SINGLE {
+        return map_point_in(pixel, 0u);
+    }
+    return map_point_in(pixel, layer_of((map.from_light * ndc_of(map.eye, pixel.at, pixel.depth)).xyz));
+}
+
+fn map_point_in(pixel: Pixel, layer: u32) -> MapPoint {
     let surface = pixel.surface;
     let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
     var point: MapPoint;
-    point.layer = 0u;
-    if LAYOUT != SINGLE {
-        point.layer = layer_of((map.from_light * ndc).xyz);
-    }
+    point.layer = layer;
     let p = map.layers[point.layer].map_from_ndc * ndc;
     var inverse_w = 1.0 / p.w;
     if LAYOUT == PARABOLOIDS {
@@ -153,7 +181,7 @@ fn map_point(pixel: Pixel) -> MapPoint {
     point.is_own_shadow = surface.casts && is_in_front && point.across < 0.0;
     let z = abs(point.depth);
     let metres = position_rounding(map.eye, pixel.depth, eye_inverse_w) + map.caster_rounding;
-    let per_metre = map.per_metre.x * z * z + map.per_metre.y;
+    let per_metre = map.layers[layer].per_metre * select(1.0, z * z, PERSPECTIVE);
     point.rounding = map.rounding.x * z + map.rounding.y + metres * per_metre;
     return point;
 }
@@ -181,12 +209,21 @@ fn map_bias(point: MapPoint, slope: vec2f, texels: f32) -> f32 {
 // How deep a texel is wide.
 fn texel_depth(point: MapPoint) -> f32 {
     let axis = map.layers[point.layer].axis;
-    let wide = max(axis.z, axis.w) * select(map.per_metre.y, point.depth, PERSPECTIVE);
+    let wide = max(axis.z, axis.w) * select(map.layers[point.layer].per_metre, point.depth, PERSPECTIVE);
     if LAYOUT == PARABOLOIDS {
         let q = plane_place(point);
         return BENT * 2.0 * wide / (1.0 + dot(q, q));
     }
     return wide;
+}
+
+// Radius of a filter: so many texels, or as many as `softness` is at the receiver. Less than half a texel is no filter, and more
+// than MOST_TEXELS are not looked at.
+fn filter_radius(point: MapPoint, texels: f32) -> f32 {
+    let axis = map.layers[point.layer].axis;
+    let distance = select(1.0, 1.0 / (map.layers[point.layer].per_metre * max(point.depth, 1e-30)), PERSPECTIVE);
+    let soft = clamp(map.softness / (max(axis.z, axis.w) * distance), 0.5, MOST_TEXELS);
+    return select(texels, soft, map.softness > 0.0);
 }
 
 // What comparing `texels` away from the receiver has to forgive besides, since curved surfaces bend away from its plane.

@@ -12,7 +12,8 @@ fn quick_visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
         return select(1.0, 0.0, is_drawn && point.is_own_shadow);
     }
     let share = quick_share(point, pixel);
-    if share < 0.0 {
+    let is_mixed = LAYOUT == SPLITS && BLEND == LERP && split_of(pixel).next > 0.0;
+    if share < 0.0 || is_mixed {
         discard;
     }
     return share;

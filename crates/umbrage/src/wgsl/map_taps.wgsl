@@ -21,8 +21,7 @@ struct Taps {
 // Index of a pixel's first tap.
 fn first_tap(at: vec2f) -> u32 {
     if taps.head.tile == 0u {
-        let noise = fract(52.9829189 * fract(dot(at, vec2f(0.06711056, 0.00583715))));
-        return min(u32(noise * f32(taps.head.sets)), taps.head.sets - 1u) * taps.head.count;
+        return min(u32(gradient_noise(at) * f32(taps.head.sets)), taps.head.sets - 1u) * taps.head.count;
     }
     let cell = vec2u(at) % vec2u(taps.head.tile);
     return taps.set_of_pixel[cell.y * taps.head.tile + cell.x] * taps.head.count;

@@ -11,5 +11,12 @@ fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
     if !(is_drawn && point.is_covered) || point.is_own_shadow {
         return select(1.0, 0.0, is_drawn && point.is_own_shadow);
     }
-    return lit_share(point, pixel);
+    let share = lit_share(point, pixel);
+    if LAYOUT == SPLITS && BLEND == LERP {
+        let split = split_of(pixel);
+        if split.next > 0.0 {
+            return mix(share, lit_share(map_point_in(pixel, split.layer + 1u), pixel), split.next);
+        }
+    }
+    return share;
 }

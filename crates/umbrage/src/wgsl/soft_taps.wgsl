@@ -42,7 +42,7 @@ fn reach_of_cell(point: MapPoint, kernel: LightKernel, low: vec2f, high: vec2f, 
     }
     let axis = map.layers[point.layer].axis;
     let off_axis = select((clamp(axis.xy, low, high) - axis.xy) * axis.zw, vec2f(0.0), LAYOUT == PARABOLOIDS);
-    let distance = sqrt(1.0 + dot(off_axis, off_axis)) / (map.per_metre.x * max(nearest, 1e-30));
+    let distance = sqrt(1.0 + dot(off_axis, off_axis)) / (map.layers[point.layer].per_metre * max(nearest, 1e-30));
     return reach_beyond(kernel, distance);
 }
 
@@ -86,11 +86,12 @@ fn reach_within(point: MapPoint, kernel: LightKernel, reach: f32) -> f32 {
 fn farthest_reach(point: MapPoint, kernel: LightKernel) -> f32 {
     let box = kernel_box(kernel, 1.0);
     let whole = map.size / max(max(box.x, box.y), 1e-6);
+    let nearest = map.layers[point.layer].nearest;
     var reach = whole;
     if PERSPECTIVE {
-        reach = min(whole, reach_beyond(kernel, 1.0 / (map.per_metre.x * max(map.nearest, 1e-30))));
+        reach = min(whole, reach_beyond(kernel, 1.0 / (map.layers[point.layer].per_metre * max(nearest, 1e-30))));
     } else {
-        reach = min(whole, reach_of(point, kernel, vec2f(0.0), map.nearest));
+        reach = min(whole, reach_of(point, kernel, vec2f(0.0), nearest));
     }
     for (var i = 0; BOUNDED && i < ROUNDS && reach > 0.0; i++) {
         reach = reach_within(point, kernel, reach);

@@ -1,11 +1,13 @@
 //! Tests that draw: they need a graphics adapter, a software one will do.
 
 mod cache;
+mod cascaded;
 mod common;
 mod filters;
 mod golden;
 mod host;
 mod layouts;
+mod pcf_blur;
 mod penumbra;
 mod poses;
 mod robust;

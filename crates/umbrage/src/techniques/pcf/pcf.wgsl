@@ -32,12 +32,12 @@ fn square(point: MapPoint, slope: vec2f, bias: f32) -> f32 {
 }
 
 // Points spread evenly over a disc along a golden spiral (Vogel), turned for every pixel so that steps become grain.
-fn disc(point: MapPoint, slope: vec2f, at: vec2f, bias: f32) -> f32 {
-    let turn = fract(52.9829189 * fract(dot(at, vec2f(0.06711056, 0.00583715)))) * 6.2831853;
+fn disc(point: MapPoint, slope: vec2f, at: vec2f, radius: f32, bias: f32) -> f32 {
+    let turn = gradient_noise(at) * 6.2831853;
     var sum = 0.0;
     for (var i = 0u; i < TAPS; i++) {
         let angle = turn + f32(i) * 2.3999632;
-        let offset = RADIUS * sqrt((f32(i) + 0.5) / f32(TAPS)) * vec2f(cos(angle), sin(angle));
+        let offset = radius * sqrt((f32(i) + 0.5) / f32(TAPS)) * vec2f(cos(angle), sin(angle));
         let reference = reference_of(depth_along(point, slope, offset) + bias);
         sum += textureSampleCompareLevel(map_depth, map_compare, (point.texel + offset) / map.size, point.layer, reference);
     }
@@ -48,10 +48,11 @@ fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let slope = map_slope(point);
     // A bilinear compare shares one reference depth between texels up to a texel away. For gathers half of that would do on
     // a plane, but wide filters meet curved surfaces: 7×7 then loses 0.05 % of the interior of `primitives`.
-    let width = select(0.5 * f32(KERNEL), RADIUS, KERNEL == 0u);
+    let radius = filter_radius(point, RADIUS);
+    let width = select(0.5 * f32(KERNEL), radius, KERNEL == 0u);
     let bias = map_bias(point, slope, 1.0 + CREASE) + map_bend(point, max(width - 1.0, 0.0));
     if KERNEL == 0u {
-        return disc(point, slope, pixel.at, bias);
+        return disc(point, slope, pixel.at, radius, bias);
     }
     if KERNEL == 2u {
         return textureSampleCompareLevel(map_depth, map_compare, point.texel / map.size, point.layer, reference_of(point.depth + bias));

@@ -23,6 +23,7 @@ const SOURCE_SHADER: Shader = Shader {
 };
 
 const HEAD: &str = include_str!("head.wgsl");
+const QUADS: &str = include_str!("quads.wgsl");
 const BLUR: &str = include_str!("blur.wgsl");
 
 const fn shader(name: &'static str, parts: &'static [&'static str]) -> Shader {
@@ -30,8 +31,9 @@ const fn shader(name: &'static str, parts: &'static [&'static str]) -> Shader {
 }
 
 const TILES_SHADER: Shader = shader("pcf-blur tiles", &[HEAD, include_str!("tiles.wgsl")]);
-const ROWS_SHADER: Shader = shader("pcf-blur rows", &[RECEIVERS, HEAD, BLUR, include_str!("rows.wgsl")]);
-const COLUMNS_SHADER: Shader = shader("pcf-blur columns", &[HEAD, BLUR, include_str!("columns.wgsl")]);
+const ROWS_SHADER: Shader = shader("pcf-blur rows", &[RECEIVERS, HEAD, QUADS, BLUR, include_str!("rows.wgsl")]);
+const COLUMNS_SHADER: Shader =
+    shader("pcf-blur columns", &[RECEIVERS, HEAD, QUADS, BLUR, include_str!("columns.wgsl")]);
 const RESULT_SHADER: Shader = shader("pcf-blur result", &[HEAD, include_str!("result.wgsl")]);
 
 const SOURCE: Param = Param {

@@ -24,7 +24,8 @@ fn fullscreen(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group
 @fragment
 fn result(@builtin(position) at: vec4f) -> @location(0) f32 {
     let pixel = vec2u(at.xy);
-    let values = textureLoad(blurred, pixel / 2u, 0).x;
+    let word = textureLoad(blurred, pixel / 2u, 0).x;
     let place = (pixel.x & 1u) + 2u * (pixel.y & 1u);
-    return f32((values >> (8u * place)) & 0xffu) / 255.0;
+    let value = (word >> (8u * place)) & 0xffu;
+    return f32(max(value, 1u) - 1u) / 254.0;
 }

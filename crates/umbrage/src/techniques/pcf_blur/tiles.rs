@@ -1,20 +1,22 @@
-//! Finds the tiles of a visibility target around which values differ, and lists them.
+//! Finds the tiles of a visibility target around which values differ, and lists them for indirect dispatches and draws.
 
 use super::TILES_SHADER;
 use crate::fullscreen::{self, FLOATS, bind, layout};
-use crate::{gpu::Gpu, visibility::VisibilityTarget};
+use crate::{gpu::Gpu, passes::Passes, visibility::VisibilityTarget};
 
-/// Blocks or tiles across and down a workgroup.
+/// Blocks or tiles across and down a workgroup, see `tiles.wgsl`.
 const WORKGROUP: u32 = 8;
+
+/// Pixels across and down a block, at least: whole quads, and not too many blocks.
+const SMALLEST_BLOCK: u32 = 4;
 
 /// Bytes before the tiles of a list.
 const HEADER: u64 = 8;
 
-/// Bytes of the arguments of a dispatch or a draw, and how many there are.
+/// Bytes of the arguments of one call.
 const ARGUMENTS: u64 = 16;
-const CALLS: u64 = 3;
 
-/// What is done with listed tiles.
+/// What is done with listed tiles; the place of its arguments.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Call {
     /// A dispatch over those that are blurred.
@@ -25,13 +27,16 @@ pub(super) enum Call {
     Result,
 }
 
+/// How many kinds of [`Call`] there are.
+const CALLS: u64 = 3;
+
 /// Lists tiles.
 pub(super) struct Tiles {
     /// Pixels across and down a block; a tile is two across and down.
-    block: u32,
+    pub block: u32,
     layout: wgpu::BindGroupLayout,
     nearest: wgpu::Sampler,
-    /// Blocks, tiles, their number.
+    /// Of blocks, of tiles, and of how many there are.
     pipelines: [wgpu::ComputePipeline; 3],
 }
 
@@ -39,8 +44,8 @@ pub(super) struct Tiles {
 pub(super) struct TileLists {
     /// Blocks across and down.
     blocks: (u32, u32),
-    ranges: wgpu::Buffer,
-    /// As `head.wgsl` declares it.
+    values: wgpu::Buffer,
+    /// `TileList` of `head.wgsl`.
     pub list: wgpu::Buffer,
     arguments: wgpu::Buffer,
 }
@@ -48,44 +53,38 @@ pub(super) struct TileLists {
 impl Tiles {
     /// For blurs that reach so many pixels.
     pub fn new(gpu: &Gpu, reach: u32, depth_aware: bool) -> Self {
-        let block = reach.next_power_of_two().max(4);
+        let block = reach.next_power_of_two().max(SMALLEST_BLOCK);
+        let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
         let written = wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Storage { read_only: false },
             has_dynamic_offset: false,
             min_binding_size: None,
         };
-        let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
         let bindings = [fullscreen::texture(FLOATS), sampler, written, written, written];
         let layout = layout(gpu, "tiles", wgpu::ShaderStages::COMPUTE, &bindings);
         let module = TILES_SHADER.module(gpu);
         let constants = [("BLOCK", f64::from(block)), ("DEPTH_AWARE", f64::from(u8::from(depth_aware)))];
         let pipelines = ["find_blocks", "find_tiles", "count_tiles"]
-            .map(|entry| super::blur::compute(gpu, &module, entry, &[&layout], &constants));
+            .map(|entry| compute_pipeline(gpu, &module, entry, &[&layout], &constants));
         let nearest = gpu.device.create_sampler(&Default::default());
         Self { block, layout, nearest, pipelines }
     }
 
-    /// Pixels across and down a block.
-    pub fn block(&self) -> u32 {
-        self.block
-    }
-
     pub fn lists(&self, gpu: &Gpu, (width, height): (u32, u32)) -> TileLists {
         let blocks = (width.div_ceil(self.block), height.div_ceil(self.block));
-        let tiles = u64::from(blocks.0.div_ceil(2)) * u64::from(blocks.1.div_ceil(2));
         let buffer = |label, size, usage| {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
                 size,
-                usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | usage,
+                usage: wgpu::BufferUsages::STORAGE | usage,
                 mapped_at_creation: false,
             })
         };
-        let none = wgpu::BufferUsages::empty();
+        let values = 4 * u64::from(blocks.0) * u64::from(blocks.1);
         TileLists {
             blocks,
-            ranges: buffer("blocks", 8 * u64::from(blocks.0) * u64::from(blocks.1), none),
-            list: buffer("tiles", HEADER + 4 * tiles, none),
+            values: buffer("blocks", values, wgpu::BufferUsages::empty()),
+            list: buffer("tiles", HEADER + 4 * tiles(blocks), wgpu::BufferUsages::COPY_DST),
             arguments: buffer("calls of tiles", ARGUMENTS * CALLS, wgpu::BufferUsages::INDIRECT),
         }
     }
@@ -94,7 +93,7 @@ impl Tiles {
         let resources = [
             wgpu::BindingResource::TextureView(&target.view),
             wgpu::BindingResource::Sampler(&self.nearest),
-            lists.ranges.as_entire_binding(),
+            lists.values.as_entire_binding(),
             lists.list.as_entire_binding(),
             lists.arguments.as_entire_binding(),
         ];
@@ -102,11 +101,9 @@ impl Tiles {
     }
 
     /// Fills the lists that `bind_group` is of.
-    pub fn record(&self, encoder: &mut wgpu::CommandEncoder, lists: &TileLists) {
-        encoder.clear_buffer(&lists.list, 0, Some(HEADER));
-    }
-
-    pub fn find(&self, pass: &mut wgpu::ComputePass<'_>, lists: &TileLists, bind_group: &wgpu::BindGroup) {
+    pub fn record(&self, passes: &mut Passes<'_>, lists: &TileLists, bind_group: &wgpu::BindGroup) {
+        passes.encoder().clear_buffer(&lists.list, 0, Some(HEADER));
+        let mut pass = passes.compute("tiles");
         pass.set_bind_group(0, bind_group, &[]);
         let (across, down) = lists.blocks;
         for (pipeline, share) in self.pipelines.iter().zip([WORKGROUP, 2 * WORKGROUP, u32::MAX]) {
@@ -117,20 +114,46 @@ impl Tiles {
 }
 
 impl TileLists {
-    /// Tiles of a picture, all together.
-    pub fn count(&self) -> u64 {
-        u64::from(self.blocks.0.div_ceil(2)) * u64::from(self.blocks.1.div_ceil(2))
-    }
-
-    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, call: Call) {
-        pass.draw_indirect(&self.arguments, call as u64 * ARGUMENTS);
+    /// Triangles of a draw of all tiles.
+    pub fn triangles(&self) -> u64 {
+        2 * tiles(self.blocks)
     }
 
     pub fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>, call: Call) {
         pass.dispatch_workgroups_indirect(&self.arguments, call as u64 * ARGUMENTS);
     }
 
-    pub fn bytes(&self) -> u64 {
-        self.ranges.size() + self.list.size() + self.arguments.size()
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, call: Call) {
+        pass.draw_indirect(&self.arguments, call as u64 * ARGUMENTS);
     }
+
+    pub fn bytes(&self) -> u64 {
+        self.values.size() + self.list.size() + self.arguments.size()
+    }
+}
+
+/// Tiles of so many blocks.
+fn tiles((across, down): (u32, u32)) -> u64 {
+    u64::from(across.div_ceil(2)) * u64::from(down.div_ceil(2))
+}
+
+pub(super) fn compute_pipeline(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    entry: &str,
+    groups: &[&wgpu::BindGroupLayout],
+    constants: &[(&str, f64)],
+) -> wgpu::ComputePipeline {
+    let groups: Vec<_> = groups.iter().map(|g| Some(*g)).collect();
+    let layout = gpu
+        .device
+        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { bind_group_layouts: &groups, ..Default::default() });
+    gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(entry),
+        layout: Some(&layout),
+        module,
+        entry_point: Some(entry),
+        compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
+        cache: None,
+    })
 }

@@ -8,8 +8,8 @@ struct TileCounts {
 
 @group(0) @binding(0) var source: texture_2d<f32>;
 @group(0) @binding(1) var nearest: sampler;
-// Smallest and largest value of each block.
-@group(0) @binding(2) var<storage, read_write> blocks: array<vec2f>;
+// The value of each block, or one of those below.
+@group(0) @binding(2) var<storage, read_write> blocks: array<f32>;
 @group(0) @binding(3) var<storage, read_write> list: TileCounts;
 // Arguments of two dispatches and a draw.
 @group(0) @binding(4) var<storage, read_write> arguments: array<vec4u, 3>;
@@ -17,8 +17,9 @@ struct TileCounts {
 // What is in its own shadow stays so, and does not count.
 override DEPTH_AWARE: bool = true;
 
-// Nothing that counts.
-const NONE: vec2f = vec2f(2.0, -1.0);
+// Nothing that counts, and more than one value.
+const NONE: f32 = -1.0;
+const MIXED: f32 = -2.0;
 
 // Quads of pixels that a workgroup blurs, tiles that an instance draws.
 const QUADS: u32 = 64u;
@@ -30,15 +31,14 @@ fn block_count() -> vec2i {
     return vec2i((textureDimensions(source) + BLOCK - 1u) / BLOCK);
 }
 
-fn range_of(values: vec4f) -> vec2f {
-    let counts = (values != vec4f(OWN_SHADOW)) | vec4<bool>(!DEPTH_AWARE);
-    let low = select(vec4f(NONE.x), values, counts);
-    let high = select(vec4f(NONE.y), values, counts);
-    return vec2f(min(min(low.x, low.y), min(low.z, low.w)), max(max(high.x, high.y), max(high.z, high.w)));
+fn both(a: f32, b: f32) -> f32 {
+    return select(select(select(MIXED, a, a == b), b, a == NONE), a, b == NONE);
 }
 
-fn both(a: vec2f, b: vec2f) -> vec2f {
-    return vec2f(min(a.x, b.x), max(a.y, b.y));
+fn value_of(values: vec4f) -> f32 {
+    let counts = (values != vec4f(OWN_SHADOW)) | vec4<bool>(!DEPTH_AWARE);
+    let v = select(vec4f(NONE), values, counts);
+    return both(both(v.x, v.y), both(v.z, v.w));
 }
 
 @compute @workgroup_size(8, 8)
@@ -48,39 +48,38 @@ fn find_blocks(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let size = vec2f(textureDimensions(source));
-    var range = NONE;
+    var value = NONE;
     for (var y = 1u; y < BLOCK; y += 2u) {
         for (var x = 1u; x < BLOCK; x += 2u) {
             let corner = vec2f(id.xy * BLOCK + vec2u(x, y));
-            range = both(range, range_of(textureGather(0, source, nearest, corner / size)));
+            value = both(value, value_of(textureGather(0, source, nearest, corner / size)));
         }
     }
-    blocks[id.y * u32(count.x) + id.x] = range;
+    blocks[id.y * u32(count.x) + id.x] = value;
 }
 
-// Rows are blurred first. Blurring columns then reads what is above and below a tile, which has to be there.
+// Columns are blurred after rows, and read what is above and below a tile: whatever has one that is blurred there.
 @compute @workgroup_size(8, 8)
 fn find_tiles(@builtin(global_invocation_id) id: vec3u) {
     let count = block_count();
-    let tiles = (count + 1) / 2;
     let tile = vec2i(id.xy);
-    if any(tile >= tiles) {
+    if any(tile >= (count + 1) / 2) {
         return;
     }
     var around = NONE;
-    var above_and_below = NONE;
+    var in_column = NONE;
     for (var y = -3; y <= 4; y++) {
         for (var x = -1; x <= 2; x++) {
             let block = clamp(2 * tile + vec2i(x, y), vec2i(0), count - 1);
-            let range = blocks[block.y * count.x + block.x];
-            above_and_below = both(above_and_below, range);
-            around = both(around, select(NONE, range, y >= -1 && y <= 2));
+            let value = blocks[block.y * count.x + block.x];
+            in_column = both(in_column, value);
+            around = both(around, select(NONE, value, y >= -1 && y <= 2));
         }
     }
     let entry = id.x | (id.y << 16u);
-    if around.x < around.y {
+    if around == MIXED {
         list.tiles[atomicAdd(&list.blurred, 1u)] = entry;
-    } else if above_and_below.x < above_and_below.y {
+    } else if in_column == MIXED {
         list.tiles[arrayLength(&list.tiles) - 1u - atomicAdd(&list.beside, 1u)] = entry;
     }
 }

@@ -4,11 +4,11 @@ override TAPS: u32 = 64u;
 override TESTS: u32 = 8u;
 override RADIUS: f32 = 4.0;
 
-fn lit_taps(point: MapPoint, first: u32, from_tap: u32, to_tap: u32) -> u32 {
-    let bend = map_bend(point, RADIUS);
+fn lit_taps(point: MapPoint, radius: f32, first: u32, from_tap: u32, to_tap: u32) -> u32 {
+    let bend = map_bend(point, radius);
     var lit = 0u;
     for (var i = from_tap; i < to_tap; i++) {
-        let stored = stored_near(point, RADIUS * taps.offsets[first + i]);
+        let stored = stored_near(point, radius * taps.offsets[first + i]);
         lit += select(0u, 1u, is_lit_beyond(point, stored.offset, stored.depth, bend));
     }
     return lit;
@@ -17,9 +17,10 @@ fn lit_taps(point: MapPoint, first: u32, from_tap: u32, to_tap: u32) -> u32 {
 fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let first = first_tap(pixel.at);
     let tests = min(TESTS, TAPS);
-    let lit = lit_taps(point, first, 0u, tests);
+    let radius = filter_radius(point, RADIUS);
+    let lit = lit_taps(point, radius, first, 0u, tests);
     if lit == 0u || lit == tests {
         return select(0.0, 1.0, lit > 0u);
     }
-    return f32(lit + lit_taps(point, first, tests, TAPS)) / f32(TAPS);
+    return f32(lit + lit_taps(point, radius, first, tests, TAPS)) / f32(TAPS);
 }

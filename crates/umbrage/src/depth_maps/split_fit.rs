@@ -1,0 +1,174 @@
+//! Splits fitted to the depths that are visible, by compute: nothing is read back, and the CPU never knows.
+//!
+//! Sources: Lauritzen, Salvi and Lefohn, "Sample Distribution Shadow Maps", 2011 (the range; parts are cropped by their corners).
+
+use super::uniforms::{Eye, MapLayer, MapLookup, texels_in_plane};
+use super::{DepthMaps, LightExtent};
+use crate::fullscreen::{STORAGE_WRITE, UNIFORM, bind, layout};
+use crate::shader::{MAP_LOOKUP, RECEIVERS, Shader, shader_struct};
+use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View};
+use umbrage_core::glam::{DMat4, DVec4};
+use umbrage_core::light_view::LightView;
+
+/// Finds the range of visible depths and crops views to parts of it.
+pub(crate) const SPLIT_FIT_SHADER: Shader = Shader {
+    name: "split fit",
+    parts: &[RECEIVERS, MAP_LOOKUP, include_str!("../wgsl/split_fit.wgsl")],
+    layouts: &[Eye::LAYOUT, MapLayer::LAYOUT, LightExtent::LAYOUT, MapLookup::LAYOUT, SplitFit::LAYOUT],
+};
+
+shader_struct! {
+    /// See `wgsl/split_fit.wgsl`.
+    pub(crate) struct SplitFit {
+        eye: Eye,
+        base: MapLayer,
+        clip_from_world: [[f32; 4]; 4],
+        corners: [[f32; 4]; 4],
+        ways: [[f32; 4]; 4],
+        view_distance: [f32; 4],
+        size: f32,
+        border: f32,
+        margin: f32,
+        count: u32,
+        lambda: f32,
+        overlap: f32,
+        distance: f32,
+        pad: f32,
+    }
+}
+
+/// Pixels across and down a workgroup of `find_range`.
+const PIXELS: u32 = 32;
+
+/// Bytes of a view's matrix.
+const MATRIX: u64 = 64;
+
+/// Pipelines and buffers.
+pub(super) struct SplitFitter {
+    find_range: wgpu::ComputePipeline,
+    /// For views that are parallel, and for those from a point.
+    fit_splits: [wgpu::ComputePipeline; 2],
+    data: SplitFit,
+    perspective: bool,
+    uniform: wgpu::Buffer,
+    range: wgpu::Buffer,
+    /// A matrix for each layer, from the casters' space to clip space.
+    matrices: wgpu::Buffer,
+    bind_group: wgpu::BindGroup,
+}
+
+impl SplitFitter {
+    /// `lookup` are the uniforms of the look-up, which it patches.
+    pub(super) fn new(gpu: &Gpu, lookup: &wgpu::Buffer) -> Self {
+        let bindings = [UNIFORM, STORAGE_WRITE, STORAGE_WRITE, STORAGE_WRITE];
+        let layout = layout(gpu, "split fit", wgpu::ShaderStages::COMPUTE, &bindings);
+        let module = SPLIT_FIT_SHADER.module(gpu);
+        let receivers = Receivers::layout(gpu);
+        let layouts = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("split fit"),
+            bind_group_layouts: &[Some(&receivers), None, Some(&layout)],
+            ..Default::default()
+        });
+        let pipeline = |entry, perspective: f64| {
+            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(entry),
+                layout: Some(&layouts),
+                module: &module,
+                entry_point: Some(entry),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &[("PERSPECTIVE", perspective)],
+                    ..Default::default()
+                },
+                cache: None,
+            })
+        };
+        use wgpu::BufferUsages as Usage;
+        let uniform = gpu.buffer("split fit", &[SplitFit::default()], Usage::UNIFORM | Usage::COPY_DST);
+        let range = gpu.buffer("visible range", &[0u32; 2], Usage::STORAGE | Usage::COPY_DST);
+        let matrices = gpu.buffer("split views", &[[0f32; 16]; 9], Usage::STORAGE | Usage::COPY_SRC);
+        let buffers = [&uniform, &range, lookup, &matrices].map(wgpu::Buffer::as_entire_binding);
+        Self {
+            find_range: pipeline("find_range", 0.0),
+            fit_splits: [0.0, 1.0].map(|perspective| pipeline("fit_splits", perspective)),
+            data: SplitFit::default(),
+            perspective: false,
+            bind_group: bind(gpu, "split fit", &layout, &buffers),
+            uniform,
+            range,
+            matrices,
+        }
+    }
+
+    /// For the views of this frame, which are all the same.
+    pub(super) fn prepare(&mut self, view: &View<'_>, maps: &DepthMaps) {
+        let (Some(light_view), Some(cascades)) = (maps.views.first(), maps.choice.cascades()) else { return };
+        let eye_from_ndc = view.clip_from_eye().inverse();
+        let world_from_ndc = DMat4::from_translation(view.camera.eye) * eye_from_ndc;
+        let [corners, ways] = corners(view, light_view, &eye_from_ndc);
+        self.perspective = light_view.is_perspective();
+        self.data = SplitFit {
+            eye: Eye::new(view),
+            base: MapLayer::of(light_view, &world_from_ndc, &maps.scene.casters),
+            clip_from_world: super::uniforms::matrix(
+                &(light_view.clip_from_world * DMat4::from_translation(view.casters.origin())),
+            ),
+            corners,
+            ways,
+            view_distance: super::uniforms::view_distance(view, &eye_from_ndc),
+            size: maps.size as f32,
+            border: maps.border_texels as f32,
+            margin: (maps.soft_texels + maps.choice.softness_m() / texels_in_plane(light_view)[1].min_element()) as f32,
+            count: cascades.count as u32,
+            lambda: cascades.lambda as f32,
+            overlap: cascades.overlap as f32,
+            distance: if cascades.distance > 0.0 { cascades.distance as f32 } else { f32::MAX },
+            pad: 0.0,
+        };
+    }
+
+    /// Patches the look-up's uniforms, after these were uploaded.
+    pub(super) fn record(&self, passes: &mut Passes<'_>, receivers: &Receivers) {
+        passes.upload(&self.uniform, bytemuck::bytes_of(&self.data));
+        passes.upload(&self.range, bytemuck::bytes_of(&[u32::MAX, 0]));
+        let mut pass = passes.compute("split fit");
+        pass.set_bind_group(0, &receivers.bind_group, &[]);
+        pass.set_bind_group(2, &self.bind_group, &[]);
+        pass.set_pipeline(&self.find_range);
+        pass.dispatch_workgroups(receivers.size.0.div_ceil(PIXELS), receivers.size.1.div_ceil(PIXELS), 1);
+        pass.set_pipeline(&self.fit_splits[usize::from(self.perspective)]);
+        pass.dispatch_workgroups(1, 1, 1);
+    }
+
+    /// Puts the matrix of a layer at the start of `uniform`.
+    pub(super) fn copy_matrix(&self, passes: &mut Passes<'_>, layer: u32, uniform: &wgpu::Buffer) {
+        let from = u64::from(layer) * MATRIX;
+        passes.encoder().copy_buffer_to_buffer(&self.matrices, from, uniform, 0, MATRIX);
+    }
+
+    pub(super) fn bytes(&self) -> u64 {
+        self.uniform.size() + self.range.size() + self.matrices.size()
+    }
+}
+
+/// Homogeneous texels of the four corners of the camera's view at distance 0 along it, and their change per metre.
+fn corners(view: &View<'_>, light_view: &LightView, eye_from_ndc: &DMat4) -> [[[f32; 4]; 4]; 2] {
+    let map_from_eye = super::uniforms::texels_from_clip(light_view.size)
+        * light_view.clip_from_world
+        * DMat4::from_translation(view.camera.eye);
+    let forward = view.camera.forward();
+    let homogeneous = |p: DVec4| {
+        let h = map_from_eye * p;
+        DVec4::new(h.x, h.y, h.w, 0.0).as_vec4().to_array()
+    };
+    let ends = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)].map(|(x, y)| {
+        // Two points on the line through the corner; any two depths will do.
+        let [a, b] = [0.25, 0.75].map(|depth| {
+            let p = eye_from_ndc * DVec4::new(x, y, depth, 1.0);
+            p.truncate() / p.w
+        });
+        let way = (b - a) / forward.dot(b - a);
+        let at_zero = a - way * forward.dot(a);
+        [homogeneous(at_zero.extend(1.0)), homogeneous(way.extend(0.0))]
+    });
+    [ends.map(|e| e[0]), ends.map(|e| e[1])]
+}

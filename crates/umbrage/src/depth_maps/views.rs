@@ -1,0 +1,163 @@
+//! Which views of a light a technique renders.
+
+use super::DepthMaps;
+use crate::{params::Settings, view::View};
+use umbrage_core::light_view::{Cascades, Cover, Fit, Focus, LightView, Omni, fit, fit_cascades};
+
+/// How views are chosen.
+pub(super) struct Views {
+    focus: Focus,
+    omni: Omni,
+    /// For techniques that split what the camera sees.
+    cascades: Option<Cascades>,
+    blend: Blend,
+    /// Radius of filters, metres; 0 where it is in texels.
+    softness_m: f64,
+    depth_fit: bool,
+}
+
+/// What happens where one split gives way to the next; `BLEND` in `wgsl/map_layers.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Blend {
+    Off,
+    Dither,
+    Lerp,
+}
+
+/// Share of a split over which it gives way to the next one.
+const OVERLAP: f64 = 0.1;
+
+/// Borders of steady views are whole multiples of so many texels: soft ones would change in every frame.
+const STEADY_BORDER: f64 = 8.0;
+
+impl Views {
+    pub(super) fn of(settings: &Settings) -> Self {
+        let blend = match settings.choice("blend") {
+            "dither" => Blend::Dither,
+            "lerp" => Blend::Lerp,
+            _ => Blend::Off,
+        };
+        let cover = match (settings.switch("stabilize"), settings.choice("fit")) {
+            (true, _) => {
+                Cover::Steady { step_texels: (settings.float("margin") * settings.int("size") as f64).max(1.0) }
+            }
+            (false, "frustum") => Cover::Part,
+            (false, _) => Cover::Receivers,
+        };
+        let cascades = Cascades {
+            count: usize::try_from(settings.int("splits")).unwrap_or(0),
+            lambda: settings.float("lambda"),
+            overlap: if blend == Blend::Off { 0.0 } else { OVERLAP },
+            distance: settings.float("distance"),
+            cover,
+        };
+        Self {
+            focus: if settings.choice("focus") == "light" { Focus::Light } else { Focus::Visible },
+            omni: super::params::omni(settings),
+            cascades: (cascades.count > 0).then_some(cascades),
+            blend,
+            softness_m: settings.float("softness"),
+            depth_fit: settings.switch("depth-fit"),
+        }
+    }
+
+    /// What the light's maps cover.
+    pub(super) fn focus(&self) -> Focus {
+        self.focus
+    }
+
+    /// `BLEND` in `wgsl/map_layers.wgsl`.
+    pub(super) fn blend(&self) -> f64 {
+        f64::from(self.blend as u8)
+    }
+
+    /// How what the camera sees is split.
+    pub(super) fn cascades(&self) -> Option<&Cascades> {
+        self.cascades.as_ref()
+    }
+
+    /// Splits are fitted to visible depths on the GPU, where they need not stand still.
+    pub(super) fn is_fitted_to_depth(&self) -> bool {
+        self.depth_fit && self.cascades.is_some_and(|c| !matches!(c.cover, Cover::Steady { .. }))
+    }
+
+    /// Radius of filters, metres; 0 where it is in texels.
+    pub(super) fn softness_m(&self) -> f64 {
+        self.softness_m
+    }
+
+    /// Share of a split over which it gives way to the next one.
+    pub(super) fn overlap(&self) -> f64 {
+        self.cascades.map_or(0.0, |c| c.overlap)
+    }
+}
+
+impl DepthMaps {
+    /// Fits the views of this frame.
+    pub(super) fn fit(&mut self, view: &View<'_>, border_texels: f64) {
+        let (focus, omni) = (self.choice.focus, self.choice.omni);
+        let mut to_fit = Fit { focus, omni, size: self.size, border_texels, border_m: self.choice.softness_m };
+        let (light, camera, views) = (&view.light.shape, &view.camera, &mut self.views);
+        let Some(cascades) = &self.choice.cascades else {
+            self.layout = fit(light, &camera.frustum(), &self.scene, &to_fit, views).into();
+            return;
+        };
+        if let Cover::Steady { .. } = cascades.cover {
+            to_fit.border_texels = (border_texels / STEADY_BORDER).ceil() * STEADY_BORDER;
+        }
+        if self.choice.is_fitted_to_depth() {
+            // One view of all that is seen, to be cropped to each part on the GPU.
+            let whole = Cascades { count: 1, overlap: 0.0, ..*cascades };
+            let omni = fit_cascades(light, camera, &self.scene, &whole, &to_fit, views, &mut self.borders);
+            self.layout = omni.into();
+            if let (false, Some(whole)) = (self.borders.is_empty(), views.pop()) {
+                let count = cascades.count as u32;
+                views.extend((0..count).map(|layer| LightView { layer, ..whole.clone() }));
+                self.layout = Layers::Splits(count);
+            }
+            self.borders.clear();
+            return;
+        }
+        let omni = fit_cascades(light, camera, &self.scene, cascades, &to_fit, views, &mut self.borders);
+        self.layout = if self.borders.is_empty() { omni.into() } else { Layers::Splits(self.borders.len() as u32 - 1) };
+    }
+}
+
+/// What the layers of a map are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Layers {
+    /// One view.
+    Single,
+    /// Directions from the light.
+    Omni(Omni),
+    /// So many parts of what the camera sees.
+    Splits(u32),
+}
+
+impl From<Option<Omni>> for Layers {
+    fn from(omni: Option<Omni>) -> Self {
+        omni.map_or(Self::Single, Self::Omni)
+    }
+}
+
+impl Layers {
+    /// Layers of the map.
+    pub(crate) fn count(self) -> u32 {
+        match self {
+            Self::Single => 1,
+            Self::Omni(omni) => omni.layers(),
+            Self::Splits(count) => count,
+        }
+    }
+
+    /// `LAYOUT` in `wgsl/map_layers.wgsl`.
+    pub(super) fn number(self) -> f64 {
+        match self {
+            Self::Single => 0.0,
+            Self::Omni(Omni::Cube) => 1.0,
+            Self::Omni(Omni::Tetrahedral) => 2.0,
+            Self::Omni(Omni::DualParaboloid) => 3.0,
+            Self::Splits(_) => 4.0,
+        }
+    }
+}
