@@ -136,10 +136,12 @@ impl Settings {
         Ok(Self { values })
     }
 
-    /// These, and the defaults of those `params` that have no value here: for a technique that makes another one.
+    /// Values for `params`, from here where one of the same name and kind is set, else their defaults; and all that is set here
+    /// besides: for a technique that makes another one.
     pub(crate) fn with_defaults_of(&self, params: &[Param]) -> Self {
-        let lacking = params.iter().filter(|p| self.get(p.name).is_none());
-        let values = self.iter().chain(lacking.map(|p| (p.name, p.kind.default()))).collect();
+        let fits = |p: &Param| self.get(p.name).filter(|v| p.kind.parse(&v.to_string()).as_ref() == Some(v));
+        let mut values: Vec<_> = params.iter().map(|p| (p.name, fits(p).unwrap_or_else(|| p.kind.default()))).collect();
+        values.extend(self.iter().filter(|(name, _)| !params.iter().any(|p| p.name == *name)));
         Self { values }
     }
 
@@ -191,6 +193,17 @@ mod tests {
     fn defaults_hold_until_set() {
         let s = parse("faces", "back").unwrap();
         assert_eq!((s.int("size"), s.choice("faces"), s.float("bias")), (4, "back", 1.0));
+    }
+
+    #[test]
+    fn another_technique_gets_what_fits_it() {
+        let others = &[
+            Param { name: "size", help: "", unit: "", kind: ParamKind::Int { min: 1, max: 9, default: 2 } },
+            Param { name: "faces", help: "", unit: "", kind: ParamKind::Int { min: 1, max: 9, default: 3 } },
+            Param { name: "taps", help: "", unit: "", kind: ParamKind::Int { min: 1, max: 9, default: 5 } },
+        ];
+        let s = parse("size", "8").unwrap().with_defaults_of(others);
+        assert_eq!((s.int("size"), s.int("faces"), s.int("taps"), s.float("bias")), (8, 3, 5, 1.0));
     }
 
     #[test]

@@ -54,7 +54,7 @@ use views::Views;
 pub(crate) const SHADERS: [Shader; 3] = [pipelines::DEPTH_SHADER, pipelines::SECOND_SHADER, pipelines::MIDPOINT_SHADER];
 
 use umbrage_core::light_view::{FitScene, Focus, LightView, Omni};
-use umbrage_core::{Bounds, Frustum, LightKind, LightKinds, glam::DVec3, scene_tree::Sphere};
+use umbrage_core::{Bounds, LightKind, LightKinds, glam::DVec3, scene_tree::Sphere};
 
 /// Names of the pictures inside, one a layer.
 pub(crate) const LAYER_NAMES: [&str; 9] =
@@ -223,6 +223,8 @@ impl DepthMaps {
         gpu.check_size("a shadow map", size, size)?;
         let faces = settings.choice("faces");
         let choice = Views::of(settings);
+        // What is fitted on the GPU is another view in every frame.
+        let cache = settings.switch("cache") && !choice.is_fitted_to_depth();
         Ok(Self {
             size,
             midpoint: faces == "midpoint",
@@ -240,8 +242,7 @@ impl DepthMaps {
             borders: Vec::new(),
             layers: Vec::new(),
             lists: Lists::default(),
-            // What is fitted on the GPU is another view in every frame.
-            cache: settings.switch("cache") && !choice.is_fitted_to_depth(),
+            cache,
             movers: Movers::default(),
             submission: Submission::default(),
             recorded: false,

@@ -96,7 +96,8 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     features: wgpu::Features::empty(),
     hard: false,
     params: &[
-        SIZE, SPLITS, LAMBDA, DISTANCE, FILTER, KERNEL, SOFTNESS, FIT, DEPTH_FIT, STABILIZE, MARGIN, BLEND, FACES, BIAS,
+        SIZE, SPLITS, LAMBDA, DISTANCE, FILTER, KERNEL, SOFTNESS, FIT, DEPTH_FIT, STABILIZE, MARGIN, BLEND, CACHE,
+        FACES, BIAS,
     ],
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], SPLIT_FIT_SHADER],
