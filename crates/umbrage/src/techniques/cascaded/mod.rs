@@ -18,7 +18,7 @@ const LAMBDA: Param = Param {
     name: "lambda",
     help: "Where the parts end: at uniform (0) or logarithmic (1) distances, or in between.",
     unit: "",
-    kind: ParamKind::Float { min: 0.0, max: 1.0, default: 0.9 },
+    kind: ParamKind::Float { min: 0.0, max: 1.0, default: 0.95 },
 };
 
 const DISTANCE: Param = Param {
