@@ -81,9 +81,9 @@ const MARGIN: Param = Param {
 
 const BLEND: Param = Param {
     name: "blend",
-    help: "How a part gives way to the next one over the last tenth of it: by a pattern of pixels, by mixing both, or at once.",
+    help: "How a part gives way to the next one over the last tenth of it: by mixing both, by a pattern of pixels, or at once.",
     unit: "",
-    kind: ParamKind::Choice { values: &["dither", "lerp", "off"] },
+    kind: ParamKind::Choice { values: &["lerp", "dither", "off"] },
 };
 
 /// See the module.
