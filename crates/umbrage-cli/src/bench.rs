@@ -33,7 +33,8 @@ pub struct Bench {
     /// Frames of each technique
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: u32,
-    /// What moves a little every frame: none, lights, casters, camera or all
+    /// What moves a little every frame: none, lights, casters, camera or all; `still` lets
+    /// techniques keep what does not change
     #[arg(long, value_name = "WHAT", default_value = "none")]
     moving: Moving,
     /// Measure flicker along a path of the camera: walk, strafe, turn or fly

@@ -273,7 +273,9 @@ impl Bench {
             let passes: Result<Vec<_>, Error> = lights.iter().map(pass).collect();
             let renderer =
                 passes.and_then(|passes| Ok(Renderer::new(gpu, &source.scene, self.size.0, self.size.1, passes)?));
-            Runner { baseline, choice, renderer, overlay: false, lights: lights.len(), frames: Frames::default() }
+            let anew = self.path.is_none() && self.moving == Moving::None;
+            let frames = Frames::default();
+            Runner { baseline, choice, renderer, overlay: false, anew, lights: lights.len(), frames }
         };
         let mut sizes: Vec<u32> = self.choices.iter().map(map_size).collect();
         sizes.sort_unstable();
@@ -313,6 +315,8 @@ struct Runner<'a> {
     choice: Option<&'a Choice>,
     renderer: Result<Renderer, Error>,
     overlay: bool,
+    /// Nothing of earlier frames is used again.
+    anew: bool,
     /// How many there are.
     lights: usize,
     frames: Frames,
@@ -323,6 +327,9 @@ impl Runner<'_> {
         let Ok(renderer) = &mut self.renderer else { return };
         let mut unused = Frames::default();
         let frames = if counts { &mut self.frames } else { &mut unused };
+        if self.anew {
+            renderer.forget();
+        }
         if let Err(error) = frames.add(renderer, camera) {
             self.renderer = Err(error.into());
         }

@@ -43,7 +43,8 @@ impl BenchReport {
         let mut text = String::new();
         let moving = match (self.path, self.moving) {
             (Some(path), _) => format!("the camera, path {}", path.name()),
-            (None, Moving::None) => "nothing".into(),
+            (None, Moving::None) => "nothing, all drawn anew".into(),
+            (None, Moving::Still) => "nothing".into(),
             (None, moving) => moving.name().into(),
         };
         for scene in &self.scenes {

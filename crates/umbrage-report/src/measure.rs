@@ -25,7 +25,8 @@ impl Frames {
         Ok(())
     }
 
-    /// A frame to warm up, then up to `count` frames, fewer where they take longer than `limit` together.
+    /// A frame to warm up, then up to `count` frames, fewer where they take longer than `limit` together. Each does all
+    /// of the work, as if nothing had been drawn before.
     pub(crate) fn measure(
         renderer: &mut Renderer,
         camera: &Camera,
@@ -34,10 +35,12 @@ impl Frames {
     ) -> Result<Self, Error> {
         let start = Instant::now();
         let mut warm_up = Self::default();
+        renderer.forget();
         warm_up.add(renderer, camera)?;
         // A frame that took the whole time alone is measurement enough, its pipelines aside.
         let mut frames = Self::default();
         while frames.frame_ms.is_empty() || frames.count() < count && start.elapsed() < limit {
+            renderer.forget();
             frames.add(renderer, camera)?;
         }
         Ok(frames)

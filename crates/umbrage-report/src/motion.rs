@@ -11,9 +11,11 @@ use umbrage_core::{Bounds, Camera, Instance, LightShape, Scene};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Moving {
-    /// Nothing.
+    /// Nothing, and every frame does all of the work: what techniques keep from frame to frame is dropped.
     #[default]
     None,
+    /// Nothing, and what techniques keep is used again.
+    Still,
     /// Lights go round a level circle whose radius is 5 % of that of the scene; parallel light turns by 3 degrees.
     Lights,
     /// Everything that casts and is not flat sinks and rises by 5 % of its smallest side; animations run.
@@ -34,12 +36,13 @@ const EYE_SHARE: f64 = 0.02;
 const STEP: f64 = 0.382;
 
 impl Moving {
-    const ALL: [Self; 5] = [Self::None, Self::Lights, Self::Casters, Self::Camera, Self::All];
+    const ALL: [Self; 6] = [Self::None, Self::Still, Self::Lights, Self::Casters, Self::Camera, Self::All];
 
     /// The name users see.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
+            Self::Still => "still",
             Self::Lights => "lights",
             Self::Casters => "casters",
             Self::Camera => "camera",
@@ -208,7 +211,7 @@ mod tests {
                 renderer.frame(&motion.camera(frame)).unwrap();
                 renderer.visibility(0).unwrap().data
             });
-            assert_eq!(start == way, moving == Moving::None, "moving: {}", moving.name());
+            assert_eq!(start == way, matches!(moving, Moving::None | Moving::Still), "moving: {}", moving.name());
             assert!(start == end, "moving {} ends elsewhere", moving.name());
         }
     }

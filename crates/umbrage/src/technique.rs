@@ -40,6 +40,9 @@ pub trait Technique: Send {
         Err(Error::Unsupported { technique, what })
     }
 
+    /// Drops what earlier frames left to be used again: the next frame does all of the work.
+    fn forget(&mut self) {}
+
     /// What the last frame drew and what is held.
     fn stats(&self) -> Stats;
 

@@ -148,6 +148,10 @@ impl Technique for MapTechnique {
         Ok(())
     }
 
+    fn forget(&mut self) {
+        self.maps.layers.iter_mut().for_each(Layer::forget);
+    }
+
     fn stats(&self) -> Stats {
         let mut stats = self.maps.stats();
         stats.draws = self.draws;

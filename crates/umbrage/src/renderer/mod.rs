@@ -219,6 +219,11 @@ impl Renderer {
         self.lights.get(pass).map(|l| &*l.technique)
     }
 
+    /// Has every technique drop what it keeps from frame to frame, see [`Technique::forget`].
+    pub fn forget(&mut self) {
+        self.lights.iter_mut().for_each(|light| light.technique.forget());
+    }
+
     /// The scene's geometry on the GPU, to move instances.
     pub fn casters_mut(&mut self) -> &mut Casters {
         &mut self.casters

@@ -35,6 +35,10 @@ impl Technique for Blurred {
         Ok(())
     }
 
+    fn forget(&mut self) {
+        self.source.forget();
+    }
+
     fn stats(&self) -> Stats {
         let mut stats = self.source.stats();
         if let Some(blur) = &self.blur {
