@@ -33,7 +33,7 @@ const TABLES: [Table; 4] = [
         title: "5.2: three splits, λ = 0.5",
         ways: [
             ("3 × 512²", "cascaded:size=512:splits=3:lambda=0.5:filter=shadow-map"),
-            ("3 × 1024²", "cascaded:size=1024:splits=3:lambda=0.5:filter=shadow-map"),
+            ("3 × 1024²", "cascaded:splits=3:lambda=0.5:filter=shadow-map"),
         ],
         thesis: [
             [(231.0, "low to medium"), (162.7, "high")],
@@ -54,7 +54,7 @@ const TABLES: [Table; 4] = [
         title: "5.4: three splits, λ = 0.5, 7×7",
         ways: [
             ("3 × 512²", "cascaded:size=512:splits=3:lambda=0.5:kernel=7"),
-            ("3 × 1024²", "cascaded:size=1024:splits=3:lambda=0.5:kernel=7"),
+            ("3 × 1024²", "cascaded:splits=3:lambda=0.5:kernel=7"),
         ],
         thesis: [
             [(55.0, "low"), (53.0, "high")],
