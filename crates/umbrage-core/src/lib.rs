@@ -32,6 +32,7 @@ pub mod scene_tree;
 pub mod scenes;
 pub mod shadow_hull;
 pub mod silhouette;
+pub mod solid;
 pub mod splits;
 mod view_body;
 mod volume;

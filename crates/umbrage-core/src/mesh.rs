@@ -1,7 +1,6 @@
 //! Triangle meshes.
 
-use crate::bounds::Bounds;
-use crate::rig::Weights;
+use crate::{bounds::Bounds, rig::Weights, weld::weld_mesh};
 use glam::{DAffine3, DVec4, Vec2, Vec3};
 
 /// Indexed triangles in the mesh's own space.
@@ -30,6 +29,13 @@ impl Mesh {
     /// Vertex indices of each triangle.
     pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
         self.indices.as_chunks::<3>().0.iter().copied()
+    }
+
+    /// [`Mesh::indices`] with the first vertex at exactly its place for each, unless joints may part them:
+    /// fewer vertices where only places count.
+    pub fn welded_indices(&self) -> Vec<u32> {
+        let first = weld_mesh(self);
+        self.indices.iter().map(|&i| first.get(i as usize).copied().unwrap_or(i)).collect()
     }
 
     /// The corners of a triangle.

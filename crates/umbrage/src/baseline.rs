@@ -49,7 +49,7 @@ pub fn floor(gpu: &Gpu) -> Box<dyn Technique> {
 pub fn bare_minimum(gpu: &Gpu, size: u32) -> Result<Box<dyn Technique>, Error> {
     let set = [("size".into(), size.to_string()), ("cache".into(), "off".into())];
     let settings = techniques::shadow_map::INFO.settings(&set)?;
-    Ok(Box::new(MapTechnique::new(gpu, &settings, &BARE, 0.0, &[])?.with_every_caster()))
+    Ok(Box::new(MapTechnique::new(gpu, &settings, &BARE, 0.0, &[])?.with_every_caster().with_back_faces()))
 }
 
 struct Floor {

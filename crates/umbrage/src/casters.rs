@@ -9,7 +9,7 @@ use crate::{error::Error, gpu::Gpu, passes::Passes, shader::shader_struct};
 use poses::Poses;
 use std::{ops::Range, sync::Arc, sync::OnceLock};
 use umbrage_core::glam::{DAffine3, DVec3, DVec4, Vec4};
-use umbrage_core::{Bounds, Mesh, Scene, scene_tree::SceneTree};
+use umbrage_core::{Bounds, Mesh, Scene, scene_tree::SceneTree, solid::is_convex_solid};
 
 mod draw_list;
 mod edges;
@@ -19,7 +19,7 @@ mod moves;
 mod places;
 mod poses;
 mod sides;
-pub(crate) use draw_list::{DrawList, InstanceNumbers, Light};
+pub(crate) use draw_list::{DrawList, InstanceNumbers, Light, Surface};
 pub(crate) use edges::{EDGES_WGSL, Edge, Edges, MeshEdges};
 pub(crate) use eye_tree::Sight;
 pub(crate) use material::{MATERIAL_LAYOUT, MATERIALS_WGSL, texture_layout};
@@ -58,6 +58,8 @@ pub struct Casters {
     pub(crate) positions: wgpu::Buffer,
     pub(crate) attributes: wgpu::Buffer,
     pub(crate) indices: wgpu::Buffer,
+    /// The same with one vertex for all at its place: for draws that need nothing but places.
+    welded: wgpu::Buffer,
     pub(crate) instances: wgpu::Buffer,
     textures: Vec<wgpu::BindGroup>,
     batches: Vec<Batch>,
@@ -74,6 +76,8 @@ pub struct Casters {
     /// Places of those that do neither.
     bystanders: Vec<u32>,
     moves: Moves,
+    /// Places of those that are convex bodies wound outwards.
+    solid: Places,
     /// Without appearance, for what is made of them on demand: those of the scene, then one for each posed instance.
     meshes: Vec<MeshPart>,
     poses: Poses,
@@ -102,12 +106,14 @@ struct Vertices {
     /// Normal and texture coordinate.
     attributes: Vec<[f32; 5]>,
     indices: Vec<u32>,
+    welded: Vec<u32>,
 }
 
 impl Vertices {
     fn add(&mut self, mesh: &Mesh) -> MeshPart {
         let first_index = self.indices.len() as u32;
         self.indices.extend(&mesh.indices);
+        self.welded.extend(mesh.welded_indices());
         let base_vertex = self.pose(mesh);
         let (positions, indices, weights) = (mesh.positions.clone(), mesh.indices.clone(), mesh.weights.clone());
         let mesh = Arc::new(Mesh { positions, indices, weights, ..Mesh::default() });
@@ -136,6 +142,8 @@ struct Batch {
     masked: bool,
     /// The mesh lies in a plane.
     flat: bool,
+    /// The mesh is the surface of a convex body, opaque.
+    solid: bool,
     /// Indices into `placed`.
     members: Range<usize>,
 }
@@ -172,14 +180,14 @@ impl Casters {
         let (mut ranges, mut meshes) = (Vec::new(), Vec::new());
         for mesh in &scene.meshes {
             let part = vertices.add(mesh);
-            ranges.push((part.indices(), part.base_vertex as i32, mesh.bounds(), mesh.plane()));
+            ranges.push((part.indices(), part.base_vertex as i32, mesh.bounds(), mesh.plane(), is_convex_solid(mesh)));
             meshes.push(part);
         }
         let mut poses = Poses::new(scene);
         for (mesh, posed) in poses.meshes(scene) {
             let source = &meshes[mesh];
             let part = MeshPart { base_vertex: vertices.pose(&posed), mesh: source.mesh.clone(), ..*source };
-            ranges.push((part.indices(), part.base_vertex as i32, poses.bounds(meshes.len()), None));
+            ranges.push((part.indices(), part.base_vertex as i32, poses.bounds(meshes.len()), None, false));
             meshes.push(part);
         }
         let mut order: Vec<usize> = (0..scene.instances.len()).collect();
@@ -195,7 +203,7 @@ impl Casters {
         for &i in &order {
             let instance = &scene.instances[i];
             let (masked, texture, mesh) = key(i);
-            let (range, base_vertex, bounds, plane) = ranges[mesh].clone();
+            let (range, base_vertex, bounds, plane, solid) = ranges[mesh].clone();
             if last != Some((masked, texture, mesh)) {
                 last = Some((masked, texture, mesh));
                 batches.push(Batch {
@@ -204,6 +212,7 @@ impl Casters {
                     texture: texture.map_or(0, |t| t + 1),
                     masked,
                     flat: plane.is_some(),
+                    solid: solid && !masked,
                     members: placed.len()..placed.len(),
                 });
             }
@@ -235,21 +244,28 @@ impl Casters {
         placed.iter().for_each(|p| data[p.number as usize] = p.data);
 
         use wgpu::BufferUsages as Usage;
-        let Vertices { positions, attributes, indices } = vertices;
+        let Vertices { positions, attributes, indices, welded } = vertices;
         let of_vertices = Usage::VERTEX | Usage::STORAGE | Usage::COPY_SRC;
         let positions = gpu.buffer("positions", &positions, of_vertices);
         let attributes = gpu.buffer("normals and texture coordinates", &attributes, of_vertices);
         let indices = gpu.buffer("indices", &indices, Usage::INDEX | Usage::STORAGE);
+        let welded = gpu.buffer("welded indices", &welded, Usage::INDEX);
         poses.prepare(gpu, scene, &meshes, [&positions, &attributes])?;
         let instances = gpu.buffer("instances", &data, Usage::STORAGE | Usage::COPY_DST);
         let materials = gpu.buffer("materials", &material::all(scene), Usage::STORAGE);
-        let bytes = [&positions, &attributes, &indices, &instances, &materials].iter().map(|b| b.size()).sum();
+        let bytes = [&positions, &attributes, &indices, &welded, &instances, &materials].iter().map(|b| b.size()).sum();
         let buffers = [instances.as_entire_binding(), materials.as_entire_binding()];
         let bind_group = bind(gpu, "casters", &Self::layout(gpu), &buffers);
         let textures = material::textures(gpu, scene)?;
         let mut place_of = vec![0; placed.len()];
         let (mut casting, mut receiving) = (SceneTree::new(scene.bounds()), SceneTree::new(scene.bounds()));
         let mut bystanders = Vec::new();
+        let mut solid = Places::default();
+        solid.clear(placed.len());
+        for batch in batches.iter().filter(|b| b.solid) {
+            let outward = batch.members.clone().filter(|place| is_outward(&placed[*place].world_from_mesh));
+            outward.for_each(|place| solid.set(place as u32, true));
+        }
         for (place, p) in (0..).zip(&placed) {
             place_of[p.number as usize] = place;
             if p.casts {
@@ -268,9 +284,11 @@ impl Casters {
             positions,
             attributes,
             indices,
+            welded,
             instances,
             textures,
             moves: Moves::new(placed.len()),
+            solid,
             number_of: placed.iter().map(|p| p.number).collect(),
             batch_of: (0..).zip(&batches).flat_map(|(i, b): (u32, &Batch)| b.members.clone().map(move |_| i)).collect(),
             batches,
@@ -304,6 +322,8 @@ impl Casters {
         placed.sides = Sides::of(world_from_mesh);
         placed.bounds = placed.mesh_bounds.transformed(world_from_mesh);
         placed.plane = placed.mesh_plane.map(|p| moved_plane(p, world_from_mesh));
+        let batch = &self.batches[self.batch_of[place as usize] as usize];
+        self.solid.set(place, batch.solid && is_outward(world_from_mesh));
         let Instance { row0, row1, row2, .. } = rows(world_from_mesh, self.origin);
         placed.data = Instance { row0, row1, row2, ..placed.data };
         let at = instance as u64 * size_of::<Instance>() as u64;
@@ -446,6 +466,12 @@ pub(crate) fn vertex_layouts(textured: bool) -> Vec<Option<wgpu::VertexBufferLay
         layouts.push(layout(20, wgpu::VertexStepMode::Vertex, ATTRIBUTES));
     }
     layouts
+}
+
+/// True where a placed mesh keeps its winding, and enough thickness that rounding can't turn it.
+fn is_outward(world_from_mesh: &DAffine3) -> bool {
+    let m = world_from_mesh.matrix3;
+    m.determinant() > 1e-4 * m.x_axis.length() * m.y_axis.length() * m.z_axis.length()
 }
 
 /// A plane taken from mesh to world space.

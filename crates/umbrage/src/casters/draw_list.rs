@@ -32,15 +32,32 @@ impl Placed {
 #[derive(Default)]
 pub(crate) struct InstanceNumbers {
     numbers: Vec<u32>,
-    /// Members of each batch, then where its next one goes.
-    slots: Vec<u32>,
+    /// Members of each batch, open ones and solid ones; then where the next one goes.
+    slots: Vec<[u32; 2]>,
     buffer: Option<wgpu::Buffer>,
 }
 
-/// What a view draws: a part of the numbers for each batch.
+/// What a view draws: a part of the numbers for each batch, or two.
 #[derive(Default)]
 pub(crate) struct DrawList {
-    draws: Vec<(usize, Range<u32>)>,
+    draws: Vec<Draw>,
+}
+
+struct Draw {
+    batch: usize,
+    surface: Surface,
+    instances: Range<u32>,
+}
+
+/// What pipelines differ in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Surface {
+    /// Opaque, and its back faces hide nothing that its front faces don't.
+    Solid,
+    /// Opaque.
+    Open,
+    /// Alpha-masked.
+    Masked,
 }
 
 impl InstanceNumbers {
@@ -58,29 +75,46 @@ impl InstanceNumbers {
         }
     }
 
-    /// Lists instances, by their places, for one view; but for those that can shadow nothing where a light is given.
-    pub fn list(&mut self, casters: &Casters, places: &[u32], light: Option<&Light>, list: &mut DrawList) {
+    /// Lists instances, by their places, for one view; but for those that can shadow nothing where a light is given. Solid ones
+    /// that are not among `pierced`, in order, can do without their back faces; all need them where that is `None`.
+    pub fn list(
+        &mut self,
+        casters: &Casters,
+        places: &[u32],
+        light: Option<&Light>,
+        pierced: Option<&[u32]>,
+        list: &mut DrawList,
+    ) {
         list.clear();
         self.slots.clear();
-        self.slots.resize(casters.batches.len(), 0);
-        let is_idle = |place: u32, batch: u32| {
-            casters.batches[batch as usize].flat
+        self.slots.resize(casters.batches.len(), [0; 2]);
+        let is_idle = |place: u32, batch: usize| {
+            casters.batches[batch].flat
                 && light.is_some_and(|light| casters.placed[place as usize].shadows_nothing(light))
         };
-        let drawn =
-            || places.iter().map(|place| (*place, casters.batch_of[*place as usize])).filter(|(p, b)| !is_idle(*p, *b));
-        drawn().for_each(|(_, batch)| self.slots[batch as usize] += 1);
+        let is_solid = |place: u32| {
+            casters.solid.has(place) && pierced.is_some_and(|pierced| pierced.binary_search(&place).is_err())
+        };
+        let drawn = || {
+            let all = places.iter().map(|place| (*place, casters.batch_of[*place as usize] as usize));
+            all.filter(|(place, batch)| !is_idle(*place, *batch))
+        };
+        drawn().for_each(|(place, batch)| self.slots[batch][usize::from(is_solid(place))] += 1);
         let mut next = self.numbers.len() as u32;
-        for (batch, slot) in self.slots.iter_mut().enumerate() {
-            let first = next;
-            next += std::mem::replace(slot, first);
-            if next > first && !casters.batches[batch].indices.is_empty() {
-                list.draws.push((batch, first..next));
+        for (number, slots) in self.slots.iter_mut().enumerate() {
+            let batch = &casters.batches[number];
+            let open = if batch.masked { Surface::Masked } else { Surface::Open };
+            for (slot, surface) in slots.iter_mut().zip([open, Surface::Solid]) {
+                let first = next;
+                next += std::mem::replace(slot, first);
+                if next > first && !batch.indices.is_empty() {
+                    list.draws.push(Draw { batch: number, surface, instances: first..next });
+                }
             }
         }
         self.numbers.resize(next as usize, 0);
         for (place, batch) in drawn() {
-            let slot = &mut self.slots[batch as usize];
+            let slot = &mut self.slots[batch][usize::from(is_solid(place))];
             self.numbers[*slot as usize] = casters.number_of[place as usize];
             *slot += 1;
         }
@@ -93,29 +127,30 @@ impl InstanceNumbers {
         }
     }
 
-    /// Draws a list with positions in vertex buffer 0, instance numbers in 1 and attributes in 2. `pipeline` chooses
-    /// the pipeline of opaque (false) and alpha-masked (true) meshes; textures are bound as group 2 for the latter,
-    /// and for all where `textured`.
+    /// Draws a list with positions in vertex buffer 0, instance numbers in 1 and attributes in 2, each surface with its
+    /// `pipeline`. Textures are bound as group 2 for alpha-masked meshes, and for all where `textured`.
     pub fn draw<'p>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         casters: &Casters,
         list: &DrawList,
         textured: bool,
-        pipeline: impl Fn(bool) -> &'p wgpu::RenderPipeline,
+        pipeline: impl Fn(Surface) -> &'p wgpu::RenderPipeline,
     ) {
         let Some(numbers) = &self.buffer else { return };
         pass.set_bind_group(1, &casters.bind_group, &[]);
         pass.set_vertex_buffer(0, casters.positions.slice(..));
         pass.set_vertex_buffer(1, numbers.slice(..));
         pass.set_vertex_buffer(2, casters.attributes.slice(..));
-        pass.set_index_buffer(casters.indices.slice(..), wgpu::IndexFormat::Uint32);
         let mut current = None;
-        for (batch, instances) in &list.draws {
+        for Draw { batch, surface, instances } in &list.draws {
             let batch = &casters.batches[*batch];
-            if current != Some(batch.masked) {
-                current = Some(batch.masked);
-                pass.set_pipeline(pipeline(batch.masked));
+            if current != Some(surface) {
+                current = Some(surface);
+                pass.set_pipeline(pipeline(*surface));
+                // Small meshes cost what their vertices cost, and a box has three times as many as places.
+                let indices = if textured || batch.masked { &casters.indices } else { &casters.welded };
+                pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
             }
             if textured || batch.masked {
                 pass.set_bind_group(2, &casters.textures[batch.texture], &[]);
@@ -143,12 +178,12 @@ impl DrawList {
 
     /// Instances drawn.
     pub fn drawn(&self) -> u32 {
-        self.draws.iter().map(|(_, instances)| instances.end - instances.start).sum()
+        self.draws.iter().map(|draw| draw.instances.end - draw.instances.start).sum()
     }
 
     /// Triangles drawn.
     pub fn triangles(&self, casters: &Casters) -> u64 {
-        let of = |(batch, instances): &(usize, Range<u32>)| {
+        let of = |Draw { batch, instances, .. }: &Draw| {
             u64::from(casters.batches[*batch].indices.len() as u32 / 3) * u64::from(instances.end - instances.start)
         };
         self.draws.iter().map(of).sum()

@@ -27,6 +27,15 @@ impl Places {
         }
     }
 
+    /// Adds or removes a place.
+    pub fn set(&mut self, place: u32, within: bool) {
+        if within {
+            self.insert(place);
+        } else {
+            self.remove(place);
+        }
+    }
+
     /// Adds all of another set.
     pub fn add(&mut self, other: &Self) {
         self.words.iter_mut().zip(&other.words).for_each(|(word, more)| *word |= more);

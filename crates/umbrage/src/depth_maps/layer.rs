@@ -1,9 +1,9 @@
 //! One layer of a map: what it has to draw in a frame.
 
 use super::cache::{Frame, LayerCache, Work};
-use super::uniforms::MapView;
+use super::uniforms::{MapView, near};
 use crate::casters::{Casters, DrawList, InstanceNumbers, Light};
-use umbrage_core::light_view::LightView;
+use umbrage_core::{Bounds, light_view::LightView};
 
 /// A layer, what is kept of it and what this frame draws.
 #[derive(Default)]
@@ -28,6 +28,27 @@ pub(super) struct Lists {
     /// Places of casters in a view.
     found: Vec<u32>,
     movers: Vec<u32>,
+    /// Casters that the light is in, or so near that the near plane may cut their fronts off; sorted.
+    pierced: Vec<u32>,
+    /// Back faces are drawn of every caster.
+    pub backs: bool,
+}
+
+impl Lists {
+    pub fn new(backs: bool) -> Self {
+        Self { backs, ..Self::default() }
+    }
+
+    /// Finds what to list solid casters by, see [`InstanceNumbers::list`].
+    fn pierce(&mut self, casters: &Casters, view: &LightView) {
+        self.pierced.clear();
+        if view.is_perspective() {
+            let eye = view.eye();
+            let around = Bounds { min: eye, max: eye }.grown(8.0 * near(view));
+            casters.casting().query(&around, &mut self.pierced);
+            self.pierced.sort_unstable();
+        }
+    }
 }
 
 impl Layer {
@@ -56,16 +77,18 @@ impl Layer {
             return;
         }
         self.version += 1;
+        lists.pierce(casters, view);
         if let (Work::Over { rest }, Some(frame)) = (self.work, frame)
             && self.prepare_over(frame, view, light.as_ref(), rest, lists)
         {
             return;
         }
         self.work = Work::Whole;
-        let Lists { numbers, found, .. } = lists;
+        let Lists { numbers, found, pierced, backs, .. } = lists;
+        let pierced = Some(&**pierced).filter(|_| !*backs && view.paraboloid.is_none());
         found.clear();
         casters.casting().query(&view.frustum(), found);
-        numbers.list(casters, found, light.as_ref(), &mut self.list);
+        numbers.list(casters, found, light.as_ref(), pierced, &mut self.list);
         self.culled = (casters.casting().len() - found.len()) as u32;
         if let Some(frame) = frame {
             self.cache.shown(frame, view, found, false);
@@ -82,7 +105,8 @@ impl Layer {
         rest: bool,
         lists: &mut Lists,
     ) -> bool {
-        let Lists { numbers, found, movers } = lists;
+        let Lists { numbers, found, movers, pierced, backs } = lists;
+        let pierced = Some(&**pierced).filter(|_| !*backs && view.paraboloid.is_none());
         let (casters, frustum) = (frame.casters, view.frustum());
         let is_seen = |place: &&u32| casters.casting().bounds(**place).is_some_and(|b| frustum.may_see(&b));
         movers.clear();
@@ -94,10 +118,10 @@ impl Layer {
             if found.len() < movers.len() {
                 return false;
             }
-            numbers.list(casters, found, light, &mut self.rest);
+            numbers.list(casters, found, light, pierced, &mut self.rest);
             self.cache.stored(frame, view, found);
         }
-        numbers.list(casters, movers, light, &mut self.list);
+        numbers.list(casters, movers, light, pierced, &mut self.list);
         self.cache.shown(frame, view, movers, true);
         true
     }

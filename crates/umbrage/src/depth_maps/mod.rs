@@ -111,6 +111,12 @@ impl MapTechnique {
         self
     }
 
+    /// Draws the back faces of all casters.
+    pub(crate) fn with_back_faces(mut self) -> Self {
+        self.maps.lists.backs = true;
+        self
+    }
+
     /// Also draws casters into the maps that can shadow nothing.
     pub(crate) fn with_every_caster(mut self) -> Self {
         self.maps.every_caster = true;
@@ -245,7 +251,7 @@ impl DepthMaps {
             layout: Layers::Single,
             borders: Vec::new(),
             layers: Vec::new(),
-            lists: Lists::default(),
+            lists: Lists::new(faces == "midpoint"),
             cache,
             movers: Movers::default(),
             submission: Submission::default(),

@@ -4,7 +4,7 @@ use super::cache::Work;
 use super::layer::Layer;
 use super::textures::{FORMAT, Textures};
 use super::uniforms::MapView;
-use crate::casters::{CASTERS_WGSL, Casters, InstanceNumbers, MATERIALS_WGSL, texture_layout, vertex_layouts};
+use crate::casters::{CASTERS_WGSL, Casters, InstanceNumbers, MATERIALS_WGSL, Surface, texture_layout, vertex_layouts};
 use crate::fullscreen::{self, UNIFORM, bind, layout};
 use crate::shader::{FULLSCREEN, MAP_STORAGE, Shader};
 use crate::{gpu::Gpu, passes::Passes};
@@ -61,14 +61,16 @@ pub(super) struct Pipelines {
     made: Vec<(Kind, Set)>,
 }
 
-/// Pipelines of one kind; pairs are for opaque and alpha-masked casters.
+/// Pipelines of one kind.
 struct Set {
-    nearest: [wgpu::RenderPipeline; 2],
+    /// For solid, open and alpha-masked casters.
+    nearest: [wgpu::RenderPipeline; 3],
     second: Option<SecondPipelines>,
 }
 
 /// For `faces = midpoint`.
 struct SecondPipelines {
+    /// For opaque and alpha-masked casters.
     surface: [wgpu::RenderPipeline; 2],
     midpoint: wgpu::RenderPipeline,
 }
@@ -128,7 +130,7 @@ impl Pipelines {
         };
         let cull_mode = self.cull_mode;
         let constants = [("LINEAR", if kind.linear { 1.0 } else { 0.0 })];
-        let draw = |module: &wgpu::ShaderModule, layout: &wgpu::PipelineLayout, vertex, fragment| {
+        let draw = |module: &wgpu::ShaderModule, layout: &wgpu::PipelineLayout, vertex, fragment, cull_mode| {
             let compare = wgpu::CompareFunction::Greater;
             // A constant that no entry point uses is none of the module's.
             let constants = if fragment == Some("cut_out") { &[][..] } else { &constants };
@@ -137,12 +139,17 @@ impl Pipelines {
         let plain = pipeline_layout(&[Some(&self.view_layout), Some(&casters)]);
         let textured = pipeline_layout(&[Some(&self.view_layout), Some(&casters), Some(&textures)]);
         let [opaque, masked] = kind.entries();
-        let nearest =
-            [draw(&self.nearest, &plain, opaque.0, opaque.1), draw(&self.nearest, &textured, masked.0, masked.1)];
+        let front = cull_mode.or(Some(wgpu::Face::Back));
+        let nearest = [
+            draw(&self.nearest, &plain, opaque.0, opaque.1, front),
+            draw(&self.nearest, &plain, opaque.0, opaque.1, cull_mode),
+            draw(&self.nearest, &textured, masked.0, masked.1, cull_mode),
+        ];
         let second = self.second.as_ref().map(|[second, mean]| {
             let one_map = Some(&self.one_map);
             let all = pipeline_layout(&[Some(&self.view_layout), Some(&casters), Some(&textures), one_map]);
-            let surface = [opaque, masked].map(|(vertex, _, fragment)| draw(second, &all, vertex, Some(fragment)));
+            let surface =
+                [opaque, masked].map(|(vertex, _, fragment)| draw(second, &all, vertex, Some(fragment), cull_mode));
             let midpoint = midpoint_pipeline(gpu, mean, &pipeline_layout(&[Some(&self.two_maps)]), kind);
             SecondPipelines { surface, midpoint }
         });
@@ -165,7 +172,7 @@ impl Pipelines {
         let draw = |passes: &mut Passes<'_>, label, list, attachment| {
             let mut pass = passes.render(label, &[], attachment);
             pass.set_bind_group(0, view_uniform, &[]);
-            numbers.draw(&mut pass, casters, list, false, |masked| &set.nearest[usize::from(masked)]);
+            numbers.draw(&mut pass, casters, list, false, |surface| &set.nearest[surface as usize]);
         };
         if let (Work::Over { rest }, Some(store)) = (layer.work, textures.stored(i)) {
             if rest {
@@ -183,7 +190,9 @@ impl Pipelines {
             let mut pass = passes.render("second surface", &[], clear(&second.second));
             pass.set_bind_group(0, view_uniform, &[]);
             pass.set_bind_group(3, &second.read_first, &[]);
-            numbers.draw(&mut pass, casters, &layer.list, true, |masked| &pipelines.surface[usize::from(masked)]);
+            numbers.draw(&mut pass, casters, &layer.list, true, |surface| {
+                &pipelines.surface[usize::from(surface == Surface::Masked)]
+            });
         }
         let mut pass = passes.render("midpoint", &[], clear(&second.midpoint));
         pass.set_pipeline(&pipelines.midpoint);

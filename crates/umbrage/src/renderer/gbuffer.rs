@@ -1,6 +1,8 @@
 //! Depth, normals and materials of the visible surfaces; ambient and emitted light at once.
 
-use crate::casters::{CASTERS_WGSL, Casters, DrawList, Instance, InstanceNumbers, MATERIAL_LAYOUT, MATERIALS_WGSL};
+use crate::casters::{
+    CASTERS_WGSL, Casters, DrawList, Instance, InstanceNumbers, MATERIAL_LAYOUT, MATERIALS_WGSL, Surface,
+};
 use crate::casters::{texture_layout, vertex_layouts};
 use crate::fullscreen::{UNIFORM, attachment, bind, layout, target_texture};
 use crate::{gpu::Gpu, passes::Passes, shader::PACK_NORMAL, shader::Shader, shader::shader_struct};
@@ -97,7 +99,7 @@ impl GBuffer {
         self.seen
             .extend((0..).zip(casters.placed()).filter(|(_, p)| frustum.may_see(&p.bounds)).map(|(place, _)| place));
         self.numbers.clear(gpu, casters, 1);
-        self.numbers.list(casters, &self.seen, None, &mut self.list);
+        self.numbers.list(casters, &self.seen, None, None, &mut self.list);
         self.numbers.upload(passes);
         let data = GBufferView {
             clip_from_world: clip_from_world.as_mat4().to_cols_array_2d(),
@@ -115,7 +117,9 @@ impl GBuffer {
         let targets = [&self.normal_view, &self.shading_view, &self.color_view, &self.radiance_view].map(clear);
         let mut pass = passes.render("gbuffer", &targets, Some(depth));
         pass.set_bind_group(0, &self.bind_group, &[]);
-        self.numbers.draw(&mut pass, casters, &self.list, true, |masked| &self.pipelines[usize::from(masked)]);
+        self.numbers.draw(&mut pass, casters, &self.list, true, |surface| {
+            &self.pipelines[usize::from(surface == Surface::Masked)]
+        });
     }
 }
 

@@ -12,5 +12,6 @@ mod penumbra;
 mod poses;
 mod robust;
 mod shared_references;
+mod solids;
 mod steady;
 mod volume;
