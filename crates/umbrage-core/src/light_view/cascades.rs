@@ -72,7 +72,7 @@ pub fn fit_cascades(
     if scene.around.is_empty() {
         return None;
     }
-    let Some([near, far]) = range(camera, &seen, scene, cascades) else { return None };
+    let [near, far] = range(camera, &seen, scene, cascades)?;
     borders.extend(split_distances(near, far, cascades.count, cascades.lambda));
     let part = Part { light, camera, seen: &seen, scene, fit };
     for layer in 0..borders.len() - 1 {

@@ -190,4 +190,4 @@ pub(super) fn steady(view: &LightView, steps: &Steps, fit: &Fit) -> LightView {
 }
 
 /// Steady views of a spot come in sizes of which each is so many times the one before.
-const SIZE_STEP: f64 = 1.414_213_562_373_095_1;
+const SIZE_STEP: f64 = std::f64::consts::SQRT_2;

@@ -59,10 +59,10 @@ fn every_part_covers_what_is_seen_in_it_and_in_the_overlap_before_it() {
                 let first = borders[1..4].iter().filter(|b| distance >= **b).count();
                 let into_next =
                     first < 3 && distance > borders[first + 1] - 0.1 * (borders[first + 1] - borders[first]);
-                for layer in first..=first + usize::from(into_next) {
-                    let at = views[layer].project(p).unwrap();
+                for view in &views[first..=first + usize::from(into_next)] {
+                    let at = view.project(p).unwrap();
                     let inside = at.truncate().abs().max_element() <= 1.0 - 3.9 / 1024.0 && (0.0..=1.0).contains(&at.z);
-                    assert!(inside, "{light:?} {cover:?} layer {layer}: {p} at {at}");
+                    assert!(inside, "{light:?} {cover:?} layer {}: {p} at {at}", view.layer);
                 }
             }
         }
