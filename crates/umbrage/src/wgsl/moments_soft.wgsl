@@ -6,9 +6,9 @@
 // Variance that bilinear weights and the boxes that were averaged add, squared texels of the level.
 const OF_LEVEL: f32 = 0.25;
 
-// Of what is found on a level, squared texels of the map along each axis.
-fn variance_of_level(level: f32) -> f32 {
-    return moments.variance + OF_LEVEL * moments.scale * moments.scale * exp2(2.0 * level);
+// Of what is found on levels of this squared width, in texels of level 0; squared texels of the map along each axis.
+fn variance_of_level(squared_width: f32) -> f32 {
+    return moments.variance + OF_LEVEL * moments.scale * moments.scale * squared_width;
 }
 
 // Bilinear, `offset` texels away from the receiver or where the map ends.

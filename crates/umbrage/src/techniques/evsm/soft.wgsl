@@ -58,7 +58,10 @@ fn filter_at(kernel: LightKernel, reach: f32) -> Filter {
     let apart = max(min(2.0 * sqrt(most * least / count), least), 2.0 * most / count);
     let level = clamp(log2(max(COARSE * apart / moments.scale, 1e-6)), 0.0, f32(moments.levels - 1u));
     let full = select(0.25, 1.0 / 3.0, taps.head.is_square != 0u) * size * size;
-    let share = variance_of_level(level - 0.5) / max(full, vec2f(1e-12));
+    // Of what taps see: some are on this level, the others on the next finer one.
+    let whole = floor(level);
+    let variance = variance_of_level(max(exp2(2.0 * whole) * mix(0.25, 1.0, level - whole), 1.0));
+    let share = variance / max(full, vec2f(1e-12));
     return Filter(level, sqrt(max(1.0 - share, vec2f(0.0))));
 }
 
