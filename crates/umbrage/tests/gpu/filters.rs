@@ -16,8 +16,8 @@ fn filters() -> impl Iterator<Item = &'static TechniqueInfo> {
     techniques().iter().copied().filter(|info| info.params.iter().any(|p| p.name == "size"))
 }
 
-/// Those that make penumbrae as wide as the light does, and what makes them do so.
-const FOLLOW_THE_LIGHT: [(&str, &str); 3] = [("pcss", ""), ("pcss-jitter", ""), ("evsm", "softness=light")];
+/// Those that make penumbrae as wide as the light does, and none where it has no width; with their settings.
+const FOLLOW_THE_LIGHT: [(&str, &str); 2] = [("pcss", ""), ("pcss-jitter", "")];
 
 /// All techniques with maps as they are by themselves, and those that can follow the light doing so.
 fn variants() -> impl Iterator<Item = (&'static TechniqueInfo, &'static str)> {

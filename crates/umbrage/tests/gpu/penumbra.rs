@@ -260,7 +260,7 @@ fn follows_the_light(cases: &[Case]) {
     let mut wrong = Vec::new();
     // A grid of 5 × 5 taps, which `pcss` looks for blockers with by itself, gets the width of 2 of 102 cases wrong by 0.12 and
     // 0.13: both lights are large for their distance.
-    for (id, set) in [("pcss", "search=7"), ("pcss-jitter", ""), ("evsm", "softness=light")] {
+    for (id, set) in [("pcss", "search=7"), ("pcss-jitter", "")] {
         let info = find(id).unwrap();
         let make = || info.make(&gpu, &info.settings(&pairs(set)).unwrap()).unwrap();
         for (row, right) in results(cases, make, &gpu) {
@@ -270,7 +270,7 @@ fn follows_the_light(cases: &[Case]) {
             }
         }
     }
-    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), 3 * cases.len(), wrong.join("\n"));
+    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), 2 * cases.len(), wrong.join("\n"));
 }
 
 #[test]
