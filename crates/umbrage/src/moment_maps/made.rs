@@ -43,6 +43,8 @@ pub(super) struct Made {
 
 /// The most often that moments are halved in the pass that takes them.
 pub(super) const AT_ONCE: u32 = 2;
+/// What some drivers give a texture at most; where coarser levels would not fit, there is the finest alone.
+const MOST_BYTES: u64 = 1 << 31;
 /// Texels of the coarsest mip level at least.
 const LEAST_SIZE: u32 = 4;
 
@@ -75,7 +77,9 @@ impl Made {
         let side = |level: u32| maps.width().div_ceil(1 << level);
         let scratch = |level| target_texture(gpu, "reduced moments", (side(level), side(level)), 1, format);
         let size = side(blur.level);
-        let levels = if coarser { (size / LEAST_SIZE).checked_ilog2().unwrap_or(0) + 1 } else { 1 };
+        let layer_bytes = u64::from(size).pow(2) * u64::from(format.block_copy_size(None).unwrap_or(16));
+        let has_room = u64::from(views + views.div_ceil(2)) * layer_bytes < MOST_BYTES;
+        let levels = if coarser && has_room { (size / LEAST_SIZE).checked_ilog2().unwrap_or(0) + 1 } else { 1 };
         // Two views share a layer for their coarser levels.
         let layers = views + if levels > 1 { views.div_ceil(2) } else { 0 };
         let moments = levels_texture(gpu, format, size, layers, 1);
