@@ -11,18 +11,21 @@ mod paraboloid;
 mod parallel;
 mod perspective;
 mod rect;
+mod warp;
 
 use crate::{bounds::Bounds, frustum::Frustum, light::LightShape};
 pub use cascades::{Cascades, Cover, fit_cascades};
 use glam::{DMat3, DMat4, DVec2, DVec3};
 pub use on_screen::texel_on_screen;
 pub use paraboloid::Paraboloid;
+pub use warp::{CUBE_SIDES, Warp, fit_warped};
 
 /// One view of a light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightView {
     /// World to the light's clip space; reversed depth: perspective views store near / distance along the axis,
-    /// orthographic ones fall linearly from 1 at the nearest caster to 0 at the farthest receiver. For a paraboloid
+    /// orthographic ones fall linearly from 1 at the nearest caster to 0 at the farthest receiver; warped ones of parallel light
+    /// (see [`Warp`]) do so along each ray. For a paraboloid
     /// the perspective view along its axis that [`LightView::paraboloid`] bends.
     pub clip_from_world: DMat4,
     /// Texels across and down.
@@ -135,7 +138,12 @@ impl LightView {
 
     /// True for views from a point.
     pub fn is_perspective(&self) -> bool {
-        self.clip_from_world.row(3).truncate().length_squared() > 0.0
+        self.clip_from_world.row(3).truncate() != DVec3::ZERO && !self.is_warped()
+    }
+
+    /// True for views of parallel light whose texels are not all of one size: w changes from ray to ray, depth along each of them.
+    pub fn is_warped(&self) -> bool {
+        [2, 3].iter().all(|row| self.clip_from_world.row(*row).truncate() != DVec3::ZERO)
     }
 
     /// Where a perspective view is from.

@@ -7,7 +7,7 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 
 /// Widest half angle of a single perspective view, as a tangent: 60 degrees. A spot that has to cover more gets
 /// several views.
-const WIDEST: f64 = 1.732;
+pub(super) const WIDEST: f64 = 1.732;
 
 /// Forward and up of the faces of a cube, in the order of the layers.
 const CUBE: [(DVec3, DVec3); 6] = [
@@ -62,13 +62,12 @@ pub(super) fn views(
     fit: &Fit,
     views: &mut Vec<LightView>,
 ) {
-    let axes: Vec<DVec3> = faces(fit.omni).map(|(forward, _)| forward).collect();
     for (layer, (forward, up)) in faces(fit.omni).enumerate() {
         let face = Perspective { position, forward, up, near };
         let rect = match fit.focus {
             Focus::Light => Some(whole(fit.omni)),
             Focus::Visible => {
-                face.visible(seen, &scene.receivers, &nearest_to(position, forward, &axes), whole(fit.omni))
+                face.visible(seen, &scene.receivers, &self::face(position, forward, fit.omni), whole(fit.omni))
             }
         };
         if let Some(rect) = rect {
@@ -76,6 +75,12 @@ pub(super) fn views(
             views.push(LightView::of(clip_from_world, fit.size, layer as u32));
         }
     }
+}
+
+/// What lies before a face: the directions that belong to it.
+pub(super) fn face(position: DVec3, forward: DVec3, omni: Omni) -> Frustum {
+    let axes: Vec<DVec3> = faces(omni).map(|(forward, _)| forward).collect();
+    nearest_to(position, forward, &axes)
 }
 
 /// The directions that are nearer to `axis` than to any other of `axes`.
