@@ -150,6 +150,11 @@ impl Settings {
         self.values.iter().copied()
     }
 
+    /// Whether there is such a parameter.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.get(name).is_some()
+    }
+
     fn get(&self, name: &str) -> Option<Value> {
         self.values.iter().find(|(n, _)| *n == name).map(|(_, v)| *v)
     }

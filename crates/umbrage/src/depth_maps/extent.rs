@@ -3,7 +3,7 @@
 use super::DepthMaps;
 use super::uniforms::{near, texels_in_plane};
 use crate::shader::shader_struct;
-use umbrage_core::glam::{DMat3, DVec3};
+use umbrage_core::glam::{DMat3, DVec3, DVec4};
 use umbrage_core::light_view::LightView;
 use umbrage_core::{Bounds, LightShape};
 
@@ -85,6 +85,9 @@ pub(super) fn light_border(light: &LightShape, maps: &DepthMaps) -> f64 {
                 LightShape::Directional { angle_deg, .. } => (angle_deg * 0.5).to_radians().clamp(0.0, 1.5).tan(),
                 ref shape => shape.radius(),
             };
+            if view.is_warped() {
+                return radius * warped_texels(view, &maps.scene.casters);
+            }
             let depth_per_metre = view.clip_from_world.row(2).truncate().length();
             let [_, metres] = texels_in_plane(view);
             return radius * first_depth(view, &maps.scene.casters) / (depth_per_metre * metres.min_element());
@@ -93,6 +96,25 @@ pub(super) fn light_border(light: &LightShape, maps: &DepthMaps) -> f64 {
         turned_border(view, (light.radius() / distance).min(1.0).asin())
     };
     maps.views.iter().map(texels).fold(0.0, f64::max)
+}
+
+/// Texels that the highest caster in a warped view is high, were it to lie in the map, where texels are smallest.
+fn warped_texels(view: &LightView, casters: &[Bounds]) -> f64 {
+    let [x, y, height, w] = [0, 1, 2, 3].map(|i| view.clip_from_world.row(i));
+    let frustum = view.frustum();
+    let corners = casters.iter().filter(|b| frustum.may_see(b)).flat_map(Bounds::corners);
+    let highest = corners.map(|c| height.dot(c.extend(1.0))).fold(0.0, f64::max) / height.truncate().length();
+    let duals = DMat3::from_cols(x.truncate(), y.truncate(), height.truncate()).inverse();
+    // How w changes with x and y, and what it is where these are 0.
+    let warp = duals * w.truncate();
+    let middle = w.w - warp.x * x.w - warp.y * y.w;
+    let per_metre = |[u, v]: [f64; 2]| {
+        let there = middle / (1.0 - warp.x * u - warp.y * v);
+        let change = |row: DVec4, at: f64| (row - w * at).truncate().length() / there;
+        if there > 0.0 { change(x, u).max(change(y, v)) } else { 0.0 }
+    };
+    let ends = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [0.0, 0.0]];
+    0.5 * f64::from(view.size) * highest * ends.map(per_metre).into_iter().fold(0.0, f64::max)
 }
 
 /// Texels that a view from a point needs around it to show what is `angle` radians outside of its sides.

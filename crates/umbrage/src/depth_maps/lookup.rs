@@ -39,6 +39,7 @@ struct Variant {
     /// The light is a ball of some kind, which turns the same side to all.
     round: bool,
     perspective: bool,
+    warped: bool,
     layout: Layers,
     linear: bool,
     has_normals: bool,
@@ -91,7 +92,8 @@ impl Lookup {
         let linear = maps.linear && perspective;
         let round = matches!(view.light.shape, LightShape::Sphere { .. } | LightShape::Ellipsoid { .. });
         let has_normals = view.receivers.has_normals;
-        let variant = Variant { round, perspective, layout: maps.layout, linear, has_normals };
+        let warped = maps.is_warped();
+        let variant = Variant { round, perspective, warped, layout: maps.layout, linear, has_normals };
         let known = self.pipelines.iter().position(|(v, _)| *v == variant);
         self.current = Some(known.unwrap_or_else(|| {
             self.pipelines.push((variant, self.pipelines_of(gpu, variant)));
@@ -155,6 +157,7 @@ impl Lookup {
         let on = |switch: bool| if switch { 1.0 } else { 0.0 };
         constants.push(("ROUND", on(variant.round)));
         constants.push(("PERSPECTIVE", on(variant.perspective)));
+        constants.push(("WARPED", on(variant.warped)));
         constants.push(("LAYOUT", variant.layout.number()));
         constants.push(("LINEAR", on(variant.linear)));
         constants.push(("HAS_NORMALS", on(variant.has_normals)));

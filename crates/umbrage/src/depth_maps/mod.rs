@@ -18,6 +18,7 @@ mod taps;
 mod textures;
 mod uniforms;
 mod views;
+mod warped;
 
 use crate::{
     casters::{self, Casters},
@@ -49,6 +50,9 @@ use uniforms::MapView;
 pub(crate) use uniforms::{Eye, LOOKUP_LAYOUTS, TAP_LAYOUTS};
 pub(crate) use views::Layers;
 use views::Views;
+pub(crate) use warped::{
+    CUBE, FILTER_KERNEL, GIVE_WAY, HEIGHT, NEAR_PLANE, PLANE, SHIFT, STRENGTH, WARPED_FILTER,
+};
 
 /// The shaders that render maps, for the registry's tests.
 pub(crate) const SHADERS: [Shader; 3] = [pipelines::DEPTH_SHADER, pipelines::SECOND_SHADER, pipelines::MIDPOINT_SHADER];
@@ -384,6 +388,11 @@ impl DepthMaps {
     /// True where this frame's views are from a point.
     pub(crate) fn is_from_a_point(&self) -> bool {
         self.views.first().is_some_and(LightView::is_perspective)
+    }
+
+    /// True where this frame's views are of parallel light, in texels that need not be of one size.
+    fn is_warped(&self) -> bool {
+        self.choice.is_warped() && !self.is_from_a_point()
     }
 
     /// What this frame's views need: all of a light are alike.

@@ -184,6 +184,7 @@ impl MapLayer {
     fn matrix(view: &LightView, world_from_ndc: &DMat4) -> Self {
         let map_from_world = texels_from_clip(view.size) * view.clip_from_world;
         let slopes = Slopes::of(&map_from_world, view.is_perspective());
+        let axis = if view.is_warped() { warp(&map_from_world) } else { axis(&map_from_world) };
         let row = |i| map_from_world.row(i).truncate().as_vec3().to_array();
         Self {
             map_from_ndc: matrix(&(map_from_world * world_from_ndc)),
@@ -193,7 +194,7 @@ impl MapLayer {
             texel_right: row(0),
             texel_down: row(1),
             texel_w: row(3),
-            axis: axis(&map_from_world).as_vec4().to_array(),
+            axis: axis.as_vec4().to_array(),
             per_metre: per_metre(view),
             ..Self::default()
         }
@@ -257,6 +258,13 @@ fn axis(map_from_world: &DMat4) -> DVec4 {
     let straight = DVec2::new(across.dot(ahead), down.dot(ahead));
     let per_texel = |row: DVec3, straight: f64| 1.0 / (row - ahead * straight).length().max(f64::MIN_POSITIVE);
     straight.extend(per_texel(across, straight.x)).extend(per_texel(down, straight.y))
+}
+
+/// Of a warped view of parallel light: how w changes with texels times w, across and down.
+fn warp(map_from_world: &DMat4) -> DVec4 {
+    let [across, down, depth, w] = [0, 1, 2, 3].map(|i| map_from_world.row(i).truncate());
+    let inverse = DMat3::from_cols(across, down, depth).inverse();
+    (inverse * w).truncate().extend(0.0).extend(0.0)
 }
 
 /// What a plane's normal has to do with the slope of its stored depth, see `plane_through` in `wgsl/map_lookup.wgsl`.

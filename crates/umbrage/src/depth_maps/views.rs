@@ -2,7 +2,9 @@
 
 use super::DepthMaps;
 use crate::{params::Settings, view::View};
-use umbrage_core::light_view::{Cascades, Cover, Fit, Focus, LightView, Omni, fit, fit_cascades};
+use umbrage_core::light_view::{
+    CUBE_SIDES, Cascades, Cover, Fit, Focus, LightView, Omni, Warp, fit, fit_cascades, fit_warped,
+};
 
 /// How views are chosen.
 pub(super) struct Views {
@@ -10,6 +12,8 @@ pub(super) struct Views {
     omni: Omni,
     /// For techniques that split what the camera sees.
     cascades: Option<Cascades>,
+    /// For techniques whose texels are smaller near the camera.
+    warp: Option<Warp>,
     blend: Blend,
     /// Radius of filters, metres; 0 where it is in texels.
     softness_m: f64,
@@ -55,6 +59,7 @@ impl Views {
             focus: if settings.choice("focus") == "light" { Focus::Light } else { Focus::Visible },
             omni: super::params::omni(settings),
             cascades: (cascades.count > 0).then_some(cascades),
+            warp: super::warped::warp(settings),
             blend,
             softness_m: settings.float("softness"),
             depth_fit: settings.switch("depth-fit"),
@@ -64,6 +69,11 @@ impl Views {
     /// What the light's maps cover.
     pub(super) fn focus(&self) -> Focus {
         self.focus
+    }
+
+    /// Texels of parallel light need not be all of one size.
+    pub(super) fn is_warped(&self) -> bool {
+        self.warp.is_some()
     }
 
     /// `BLEND` in `wgsl/map_layers.wgsl`.
@@ -98,6 +108,12 @@ impl DepthMaps {
         let (focus, omni) = (self.choice.focus, self.choice.omni);
         let mut to_fit = Fit { focus, omni, size: self.size, border_texels, border_m: self.choice.softness_m };
         let (light, camera, views) = (&view.light.shape, &view.camera, &mut self.views);
+        if let Some(warp) = &self.choice.warp {
+            let omni = fit_warped(light, camera, &self.scene, warp, &to_fit, views);
+            let has_sides = omni.is_none() && matches!(warp, Warp::PostPerspective { cube: true, .. });
+            self.layout = if has_sides { Layers::Sides } else { omni.into() };
+            return;
+        }
         let Some(cascades) = &self.choice.cascades else {
             self.layout = fit(light, &camera.frustum(), &self.scene, &to_fit, views).into();
             return;
@@ -132,6 +148,8 @@ pub(crate) enum Layers {
     Omni(Omni),
     /// So many parts of what the camera sees.
     Splits(u32),
+    /// Sides of a post-perspective cube: a receiver is in any layer that covers it.
+    Sides,
 }
 
 impl From<Option<Omni>> for Layers {
@@ -147,6 +165,7 @@ impl Layers {
             Self::Single => 1,
             Self::Omni(omni) => omni.layers(),
             Self::Splits(count) => count,
+            Self::Sides => CUBE_SIDES,
         }
     }
 
@@ -158,6 +177,7 @@ impl Layers {
             Self::Omni(Omni::Tetrahedral) => 2.0,
             Self::Omni(Omni::DualParaboloid) => 3.0,
             Self::Splits(_) => 4.0,
+            Self::Sides => 5.0,
         }
     }
 }

@@ -10,7 +10,24 @@ macro_rules! techniques {
     };
 }
 
-techniques![none, shadow_map, pcf, pcf_jitter, pcf_blur, pcss, pcss_jitter, vsm, evsm, msm, esm, cascaded, volume,];
+techniques![
+    none,
+    shadow_map,
+    pcf,
+    pcf_jitter,
+    pcf_blur,
+    pcss,
+    pcss_jitter,
+    vsm,
+    evsm,
+    msm,
+    esm,
+    cascaded,
+    psm,
+    lispsm,
+    plane_optimal,
+    volume,
+];
 
 /// All techniques, in the order in which they are best explained.
 pub fn techniques() -> &'static [&'static TechniqueInfo] {

@@ -55,11 +55,13 @@ fn light_kernel(point: MapPoint, pixel: Pixel) -> LightKernel {
     let change_up = texel_change(layer, up, unit);
     kernel.right = change_right.xy;
     kernel.up = change_up.xy;
-    if PERSPECTIVE {
+    if PERSPECTIVE || WARPED {
         let w = vec2f(change_right.z, change_up.z) * point.inverse_w;
         kernel.right = kernel.right * point.inverse_w - point.texel * w.x;
         kernel.up = kernel.up * point.inverse_w - point.texel * w.y;
         kernel.nearer = w;
+    }
+    if PERSPECTIVE {
         let plane = plane_through(point, normal);
         kernel.facing = plane.along / plane.across;
         kernel.facing_bend = plane.bend / plane.across;
@@ -74,7 +76,7 @@ fn light_kernel(point: MapPoint, pixel: Pixel) -> LightKernel {
 // Texels from the receiver to what would hide the point `at` of the light at this reach.
 fn kernel_offset(kernel: LightKernel, at: vec2f, reach: f32) -> vec2f {
     let way = kernel.right * at.x + kernel.up * at.y;
-    if PERSPECTIVE {
+    if PERSPECTIVE || WARPED {
         return way * (reach / max(1.0 + reach * dot(kernel.nearer, at), 0.1));
     }
     return way * reach;
@@ -84,6 +86,13 @@ fn kernel_offset(kernel: LightKernel, at: vec2f, reach: f32) -> vec2f {
 fn reach_of(point: MapPoint, kernel: LightKernel, offset: vec2f, stored: f32) -> f32 {
     if PERSPECTIVE {
         return stored / max(point.depth + plane_step(point, kernel.facing, kernel.facing_bend, offset), 1e-3 * point.depth) - 1.0;
+    }
+    if WARPED {
+        // Depth is height over w, and w is not the same there.
+        let warp = map.layers[point.layer].axis.xy;
+        let here = 1.0 - dot(warp, point.texel);
+        let there = max(here - dot(warp, offset), 1e-4 * here);
+        return (stored * here / there - point.depth) / (map.layers[point.layer].per_metre * point.inverse_w);
     }
     return (stored - point.depth) / map.layers[point.layer].per_metre;
 }

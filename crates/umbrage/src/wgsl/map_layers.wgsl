@@ -23,7 +23,7 @@ struct MapLayer {
     texel_w: vec3f,
     pad_f: f32,
     // Perspective: the texel straight ahead, and the tangent that a texel spans, of a paraboloid what it spans of its plane. Parallel: the
-    // metres that it spans.
+    // metres that it spans. Warped: how w changes with texels times w, across and down.
     axis: vec4f,
 }
 
@@ -77,6 +77,8 @@ struct MapLookup {
 
 // Views from a point.
 override PERSPECTIVE: bool = false;
+// Views of parallel light whose texels are not all of one size.
+override WARPED: bool = false;
 // The light is a ball of some kind, else flat.
 override ROUND: bool = false;
 
@@ -87,6 +89,7 @@ const CUBE: u32 = 1u;
 const TETRAHEDRON: u32 = 2u;
 const PARABOLOIDS: u32 = 3u;
 const SPLITS: u32 = 4u;
+const SIDES: u32 = 5u;
 
 // How a split gives way to the next one: at once, pixel by pixel, or by mixing both.
 override BLEND: u32 = 0u;

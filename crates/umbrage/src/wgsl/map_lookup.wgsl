@@ -57,6 +57,9 @@ struct MapPlane {
 // With m = (n · right, n · down, n · axis) the plane is m₀ u + m₁ v + m₂ = c · near / depth in perspective, so that its
 // slope is depth · (m₀, m₁) / (m₀ u + m₁ v + m₂); for parallel light it is (m₀, m₁) / m₂.
 //
+// In a warped view w is another linear function of the texel times w, with the change a. Then the slope is (m₀, m₁) / m₂ − a s, with s the
+// depth that the plane has at texel 0, (depth − (m₀ u + m₁ v) / m₂) / (1 − a₀ u − a₁ v).
+//
 // A place q in a paraboloid's plane is the unit way (2q, 1 − q²) / (1 + q²), and depth is proportional to n times that.
 fn plane_through(point: MapPoint, normal: vec3f) -> MapPlane {
     let layer = point.layer;
@@ -73,6 +76,10 @@ fn plane_through(point: MapPoint, normal: vec3f) -> MapPlane {
     } else if PERSPECTIVE {
         plane.across += dot(m, point.texel);
         plane.along *= point.depth;
+    } else if WARPED {
+        let warp = map.layers[layer].axis.xy;
+        let first = (point.depth * plane.across - dot(m, point.texel)) / (1.0 - dot(warp, point.texel));
+        plane.along -= warp * first;
     }
     return plane;
 }
@@ -129,6 +136,22 @@ fn split_of(pixel: Pixel) -> Split {
     return split_at(dot(map.view_distance, ndc) / eye_w(map.eye, ndc));
 }
 
+// The side of a post-perspective cube that covers a pixel, the one with most room around it.
+fn side_of(pixel: Pixel) -> u32 {
+    let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
+    var most = -1.0;
+    var side = 0u;
+    for (var i = 0u; i < 6u; i++) {
+        let p = map.layers[i].map_from_ndc * ndc;
+        let texel = p.xy / p.w;
+        let inside = min(texel, map.size - texel);
+        let room = select(-1.0, min(inside.x, inside.y), p.w * eye_w(map.eye, ndc) > 0.0);
+        side = select(side, i, room > most);
+        most = max(most, room);
+    }
+    return side;
+}
+
 // For the surface that a pixel shows.
 fn map_point(pixel: Pixel) -> MapPoint {
     if LAYOUT == SPLITS {
@@ -143,6 +166,9 @@ fn map_point(pixel: Pixel) -> MapPoint {
     }
     if LAYOUT == SINGLE {
         return map_point_in(pixel, 0u);
+    }
+    if LAYOUT == SIDES {
+        return map_point_in(pixel, side_of(pixel));
     }
     return map_point_in(pixel, layer_of((map.from_light * ndc_of(map.eye, pixel.at, pixel.depth)).xyz));
 }
@@ -166,7 +192,7 @@ fn map_point_in(pixel: Pixel, layer: u32) -> MapPoint {
     var is_in_front = true;
     var eye_inverse_w = inverse_w;
     point.inverse_w = 1.0;
-    if PERSPECTIVE {
+    if PERSPECTIVE || WARPED {
         let w = eye_w(map.eye, ndc);
         eye_inverse_w = 1.0 / w;
         point.inverse_w = inverse_w * w;
@@ -181,7 +207,10 @@ fn map_point_in(pixel: Pixel, layer: u32) -> MapPoint {
     point.is_own_shadow = surface.casts && is_in_front && point.across < 0.0;
     let z = abs(point.depth);
     let metres = position_rounding(map.eye, pixel.depth, eye_inverse_w) + map.caster_rounding;
-    let per_metre = map.layers[layer].per_metre * select(1.0, z * z, PERSPECTIVE);
+    var per_metre = map.layers[layer].per_metre * select(1.0, z * z, PERSPECTIVE);
+    if WARPED {
+        per_metre = (per_metre + z * length(map.layers[layer].texel_w)) * point.inverse_w;
+    }
     point.rounding = map.rounding.x * z + map.rounding.y + metres * per_metre;
     return point;
 }
@@ -209,6 +238,12 @@ fn map_bias(point: MapPoint, slope: vec2f, texels: f32) -> f32 {
 // How deep a texel is wide.
 fn texel_depth(point: MapPoint) -> f32 {
     let axis = map.layers[point.layer].axis;
+    if WARPED {
+        // Texels across and down as they change with the place, times w: what a texel spans, times w over that, is at most this.
+        let right = map.layers[point.layer].texel_right - point.texel.x * map.layers[point.layer].texel_w;
+        let down = map.layers[point.layer].texel_down - point.texel.y * map.layers[point.layer].texel_w;
+        return map.layers[point.layer].per_metre * sqrt(dot(right, right) + dot(down, down)) / length(cross(right, down));
+    }
     let wide = max(axis.z, axis.w) * select(map.layers[point.layer].per_metre, point.depth, PERSPECTIVE);
     if LAYOUT == PARABOLOIDS {
         let q = plane_place(point);

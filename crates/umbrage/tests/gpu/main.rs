@@ -15,3 +15,4 @@ mod shared_references;
 mod solids;
 mod steady;
 mod volume;
+mod warped;

@@ -13,7 +13,7 @@ const WARPS: [Warp; 7] = [
     Warp::Plane { plane: None, gives_way: false },
 ];
 
-const FIT: Fit = Fit { focus: Focus::Visible, omni: Omni::Cube, size: 1024, border_texels: 2.0 };
+const FIT: Fit = Fit { focus: Focus::Visible, omni: Omni::Cube, size: 1024, border_texels: 2.0, border_m: 0.0 };
 
 /// A small generator, so that tests need no crate.
 struct Random(u64);
