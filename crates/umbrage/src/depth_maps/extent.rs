@@ -86,7 +86,7 @@ pub(super) fn light_border(light: &LightShape, maps: &DepthMaps) -> f64 {
                 ref shape => shape.radius(),
             };
             if view.is_warped() {
-                return radius * warped_texels(view, &maps.scene.casters);
+                return radius * highest(view, &maps.scene.casters) * finest_texels(view);
             }
             let depth_per_metre = view.clip_from_world.row(2).truncate().length();
             let [_, metres] = texels_in_plane(view);
@@ -98,12 +98,16 @@ pub(super) fn light_border(light: &LightShape, maps: &DepthMaps) -> f64 {
     maps.views.iter().map(texels).fold(0.0, f64::max)
 }
 
-/// Texels that the highest caster in a warped view is high, were it to lie in the map, where texels are smallest.
-fn warped_texels(view: &LightView, casters: &[Bounds]) -> f64 {
-    let [x, y, height, w] = [0, 1, 2, 3].map(|i| view.clip_from_world.row(i));
-    let frustum = view.frustum();
+/// How far the highest caster in a warped view is over the lowest receiver, metres.
+fn highest(view: &LightView, casters: &[Bounds]) -> f64 {
+    let (frustum, height) = (view.frustum(), view.clip_from_world.row(2));
     let corners = casters.iter().filter(|b| frustum.may_see(b)).flat_map(Bounds::corners);
-    let highest = corners.map(|c| height.dot(c.extend(1.0))).fold(0.0, f64::max) / height.truncate().length();
+    corners.map(|c| height.dot(c.extend(1.0))).fold(0.0, f64::max) / height.truncate().length()
+}
+
+/// Texels to a metre in a warped view, across the light and where texels are smallest.
+fn finest_texels(view: &LightView) -> f64 {
+    let [x, y, height, w] = [0, 1, 2, 3].map(|i| view.clip_from_world.row(i));
     let duals = DMat3::from_cols(x.truncate(), y.truncate(), height.truncate()).inverse();
     // How w changes with x and y, and what it is where these are 0.
     let warp = duals * w.truncate();
@@ -114,7 +118,7 @@ fn warped_texels(view: &LightView, casters: &[Bounds]) -> f64 {
         if there > 0.0 { change(x, u).max(change(y, v)) } else { 0.0 }
     };
     let ends = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [0.0, 0.0]];
-    0.5 * f64::from(view.size) * highest * ends.map(per_metre).into_iter().fold(0.0, f64::max)
+    0.5 * f64::from(view.size) * ends.map(per_metre).into_iter().fold(0.0, f64::max)
 }
 
 /// Texels that a view from a point needs around it to show what is `angle` radians outside of its sides.
@@ -133,8 +137,11 @@ fn turned_border(view: &LightView, angle: f64) -> f64 {
 }
 
 /// The largest depth that the map of a view can hold, from the boxes around the casters. Of views from a point: near / distance, not
-/// along the axis.
+/// along the axis. Of a warped view: the height of the highest caster, metres.
 pub(super) fn nearest(view: &LightView, casters: &[Bounds]) -> f32 {
+    if view.is_warped() {
+        return highest(view, casters) as f32;
+    }
     let deepest = match view.is_perspective() {
         true => near(view) / nearest_distance(view, casters),
         false => first_depth(view, casters),

@@ -88,13 +88,23 @@ fn reach_of(point: MapPoint, kernel: LightKernel, offset: vec2f, stored: f32) ->
         return stored / max(point.depth + plane_step(point, kernel.facing, kernel.facing_bend, offset), 1e-3 * point.depth) - 1.0;
     }
     if WARPED {
+        let per_metre = map.layers[point.layer].per_metre * point.inverse_w;
         // Depth is height over w, and w is not the same there.
         let warp = map.layers[point.layer].axis.xy;
         let here = 1.0 - dot(warp, point.texel);
         let there = max(here - dot(warp, offset), 1e-4 * here);
-        return (stored * here / there - point.depth) / (map.layers[point.layer].per_metre * point.inverse_w);
+        return (stored * here / there - point.depth) / per_metre;
     }
     return (stored - point.depth) / map.layers[point.layer].per_metre;
+}
+
+// Reach of the nearest caster there can be in a map of parallel light.
+fn reach_of_nearest(point: MapPoint, kernel: LightKernel) -> f32 {
+    let nearest = map.layers[point.layer].nearest;
+    if WARPED {
+        return nearest - point.depth / (map.layers[point.layer].per_metre * point.inverse_w);
+    }
+    return reach_of(point, kernel, vec2f(0.0), nearest);
 }
 
 fn is_above_horizon(kernel: LightKernel, at: vec2f) -> bool {

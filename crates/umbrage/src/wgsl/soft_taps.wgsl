@@ -93,8 +93,8 @@ fn farthest_reach(point: MapPoint, kernel: LightKernel) -> f32 {
     var reach = whole;
     if PERSPECTIVE {
         reach = min(whole, reach_beyond(kernel, 1.0 / (map.layers[point.layer].per_metre * max(nearest, 1e-30))));
-    } else if !WARPED {
-        reach = min(whole, reach_of(point, kernel, vec2f(0.0), nearest));
+    } else {
+        reach = min(whole, reach_of_nearest(point, kernel));
     }
     for (var i = 0; BOUNDED && i < ROUNDS && reach > 0.0; i++) {
         reach = reach_within(point, kernel, reach);
