@@ -50,9 +50,7 @@ use uniforms::MapView;
 pub(crate) use uniforms::{Eye, LOOKUP_LAYOUTS, TAP_LAYOUTS};
 pub(crate) use views::Layers;
 use views::Views;
-pub(crate) use warped::{
-    CUBE, FILTER_KERNEL, GIVE_WAY, HEIGHT, NEAR_PLANE, PLANE, SHIFT, STRENGTH, WARPED_FILTER,
-};
+pub(crate) use warped::{CUBE, FILTER_KERNEL, GIVE_WAY, HEIGHT, NEAR_PLANE, PLANE, SHIFT, STRENGTH, WARPED_FILTER};
 
 /// The shaders that render maps, for the registry's tests.
 pub(crate) const SHADERS: [Shader; 3] = [pipelines::DEPTH_SHADER, pipelines::SECOND_SHADER, pipelines::MIDPOINT_SHADER];

@@ -2,7 +2,9 @@
 //!
 //! Sources: Wimmer, Scherzer and Purgathofer, "Light Space Perspective Shadow Maps", 2004; SG "Perspective Shadow Maps".
 
-use crate::depth_maps::{BIAS, CACHE, FACES, FILTER_KERNEL, LAYER_NAMES, LIGHTS, SHADERS, SIZE, STRENGTH, WARPED_FILTER};
+use crate::depth_maps::{
+    BIAS, CACHE, FACES, FILTER_KERNEL, LAYER_NAMES, LIGHTS, SHADERS, SIZE, STRENGTH, WARPED_FILTER,
+};
 use crate::technique::TechniqueInfo;
 use crate::techniques::find;
 

@@ -2,7 +2,9 @@
 //!
 //! Sources: Chong, "Real-Time Perspective Optimal Shadow Maps", 2003; SG "Thesis of Hamilton Yu-Ik Chong".
 
-use crate::depth_maps::{BIAS, CACHE, FACES, FILTER_KERNEL, GIVE_WAY, HEIGHT, LAYER_NAMES, LIGHTS, PLANE, SHADERS, SIZE, WARPED_FILTER};
+use crate::depth_maps::{
+    BIAS, CACHE, FACES, FILTER_KERNEL, GIVE_WAY, HEIGHT, LAYER_NAMES, LIGHTS, PLANE, SHADERS, SIZE, WARPED_FILTER,
+};
 use crate::technique::TechniqueInfo;
 use crate::techniques::find;
 

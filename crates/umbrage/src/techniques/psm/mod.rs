@@ -2,7 +2,9 @@
 //!
 //! Sources: Stamminger and Drettakis 2002; Kozlov, "Perspective Shadow Maps: Care and Feeding", 2004; SG "Perspective Shadow Maps".
 
-use crate::depth_maps::{BIAS, CACHE, CUBE, FACES, FILTER_KERNEL, LAYER_NAMES, LIGHTS, NEAR_PLANE, SHADERS, SHIFT, SIZE, WARPED_FILTER};
+use crate::depth_maps::{
+    BIAS, CACHE, CUBE, FACES, FILTER_KERNEL, LAYER_NAMES, LIGHTS, NEAR_PLANE, SHADERS, SHIFT, SIZE, WARPED_FILTER,
+};
 use crate::technique::TechniqueInfo;
 use crate::techniques::find;
 
