@@ -3,7 +3,7 @@
 use super::DepthMaps;
 use super::uniforms::{near, texels_in_plane};
 use crate::shader::shader_struct;
-use umbrage_core::glam::{DMat3, DVec3, DVec4};
+use umbrage_core::glam::{DMat3, DVec3};
 use umbrage_core::light_view::LightView;
 use umbrage_core::{Bounds, LightShape};
 
@@ -85,9 +85,6 @@ pub(super) fn light_border(light: &LightShape, maps: &DepthMaps) -> f64 {
                 LightShape::Directional { angle_deg, .. } => (angle_deg * 0.5).to_radians().clamp(0.0, 1.5).tan(),
                 ref shape => shape.radius(),
             };
-            if view.is_warped() {
-                return radius * highest(view, &maps.scene.casters) * finest_texels(view);
-            }
             let depth_per_metre = view.clip_from_world.row(2).truncate().length();
             let [_, metres] = texels_in_plane(view);
             return radius * first_depth(view, &maps.scene.casters) / (depth_per_metre * metres.min_element());
@@ -96,29 +93,6 @@ pub(super) fn light_border(light: &LightShape, maps: &DepthMaps) -> f64 {
         turned_border(view, (light.radius() / distance).min(1.0).asin())
     };
     maps.views.iter().map(texels).fold(0.0, f64::max)
-}
-
-/// How far the highest caster in a warped view is over the lowest receiver, metres.
-fn highest(view: &LightView, casters: &[Bounds]) -> f64 {
-    let (frustum, height) = (view.frustum(), view.clip_from_world.row(2));
-    let corners = casters.iter().filter(|b| frustum.may_see(b)).flat_map(Bounds::corners);
-    corners.map(|c| height.dot(c.extend(1.0))).fold(0.0, f64::max) / height.truncate().length()
-}
-
-/// Texels to a metre in a warped view, across the light and where texels are smallest.
-fn finest_texels(view: &LightView) -> f64 {
-    let [x, y, height, w] = [0, 1, 2, 3].map(|i| view.clip_from_world.row(i));
-    let duals = DMat3::from_cols(x.truncate(), y.truncate(), height.truncate()).inverse();
-    // How w changes with x and y, and what it is where these are 0.
-    let warp = duals * w.truncate();
-    let middle = w.w - warp.x * x.w - warp.y * y.w;
-    let per_metre = |[u, v]: [f64; 2]| {
-        let there = middle / (1.0 - warp.x * u - warp.y * v);
-        let change = |row: DVec4, at: f64| (row - w * at).truncate().length() / there;
-        if there > 0.0 { change(x, u).max(change(y, v)) } else { 0.0 }
-    };
-    let ends = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [0.0, 0.0]];
-    0.5 * f64::from(view.size) * ends.map(per_metre).into_iter().fold(0.0, f64::max)
 }
 
 /// Texels that a view from a point needs around it to show what is `angle` radians outside of its sides.
@@ -137,11 +111,8 @@ fn turned_border(view: &LightView, angle: f64) -> f64 {
 }
 
 /// The largest depth that the map of a view can hold, from the boxes around the casters. Of views from a point: near / distance, not
-/// along the axis. Of a warped view: the height of the highest caster, metres.
+/// along the axis.
 pub(super) fn nearest(view: &LightView, casters: &[Bounds]) -> f32 {
-    if view.is_warped() {
-        return highest(view, casters) as f32;
-    }
     let deepest = match view.is_perspective() {
         true => near(view) / nearest_distance(view, casters),
         false => first_depth(view, casters),

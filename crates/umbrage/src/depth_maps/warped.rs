@@ -9,9 +9,7 @@ pub(crate) const WARPED_FILTER: Param = Param {
     name: "filter",
     help: "The technique that looks the map up, with its own defaults but for the parameters that are set here.",
     unit: "",
-    kind: ParamKind::Choice {
-        values: &["pcf", "shadow-map", "pcf-jitter", "pcf-blur", "pcss", "pcss-jitter", "vsm", "evsm", "msm", "esm"],
-    },
+    kind: ParamKind::Choice { values: &["pcf", "shadow-map", "pcf-jitter", "pcf-blur", "vsm", "evsm", "msm", "esm"] },
 };
 
 /// Of `pcf` as the filter of another technique.
@@ -57,7 +55,7 @@ pub(crate) const STRENGTH: Param = Param {
 /// Declared by `plane-optimal`.
 pub(crate) const PLANE: Param = Param {
     name: "plane",
-    help: "The plane that the map is made for: that of the receivers' boxes which most of the picture shows, or the level one at `height`.",
+    help: "The plane that the map is made for: the better one of that which most of the picture shows and the ground, or the level one at `height`.",
     unit: "",
     kind: ParamKind::Choice { values: &["auto", "level"] },
 };

@@ -55,13 +55,11 @@ fn light_kernel(point: MapPoint, pixel: Pixel) -> LightKernel {
     let change_up = texel_change(layer, up, unit);
     kernel.right = change_right.xy;
     kernel.up = change_up.xy;
-    if PERSPECTIVE || WARPED {
+    if PERSPECTIVE {
         let w = vec2f(change_right.z, change_up.z) * point.inverse_w;
         kernel.right = kernel.right * point.inverse_w - point.texel * w.x;
         kernel.up = kernel.up * point.inverse_w - point.texel * w.y;
         kernel.nearer = w;
-    }
-    if PERSPECTIVE {
         let plane = plane_through(point, normal);
         kernel.facing = plane.along / plane.across;
         kernel.facing_bend = plane.bend / plane.across;
@@ -76,7 +74,7 @@ fn light_kernel(point: MapPoint, pixel: Pixel) -> LightKernel {
 // Texels from the receiver to what would hide the point `at` of the light at this reach.
 fn kernel_offset(kernel: LightKernel, at: vec2f, reach: f32) -> vec2f {
     let way = kernel.right * at.x + kernel.up * at.y;
-    if PERSPECTIVE || WARPED {
+    if PERSPECTIVE {
         return way * (reach / max(1.0 + reach * dot(kernel.nearer, at), 0.1));
     }
     return way * reach;
@@ -87,24 +85,7 @@ fn reach_of(point: MapPoint, kernel: LightKernel, offset: vec2f, stored: f32) ->
     if PERSPECTIVE {
         return stored / max(point.depth + plane_step(point, kernel.facing, kernel.facing_bend, offset), 1e-3 * point.depth) - 1.0;
     }
-    if WARPED {
-        let per_metre = map.layers[point.layer].per_metre * point.inverse_w;
-        // Depth is height over w, and w is not the same there.
-        let warp = map.layers[point.layer].axis.xy;
-        let here = 1.0 - dot(warp, point.texel);
-        let there = max(here - dot(warp, offset), 1e-4 * here);
-        return (stored * here / there - point.depth) / per_metre;
-    }
     return (stored - point.depth) / map.layers[point.layer].per_metre;
-}
-
-// Reach of the nearest caster there can be in a map of parallel light.
-fn reach_of_nearest(point: MapPoint, kernel: LightKernel) -> f32 {
-    let nearest = map.layers[point.layer].nearest;
-    if WARPED {
-        return nearest - point.depth / (map.layers[point.layer].per_metre * point.inverse_w);
-    }
-    return reach_of(point, kernel, vec2f(0.0), nearest);
 }
 
 fn is_above_horizon(kernel: LightKernel, at: vec2f) -> bool {

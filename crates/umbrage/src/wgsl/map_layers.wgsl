@@ -10,7 +10,7 @@ struct MapLayer {
     // Change of stored depth per metre: of parallel views; in perspective, times the squared depth.
     per_metre: f32,
     slope_down: vec3f,
-    // Depth of the nearest caster there can be; from a point, near / distance; warped, its height over depth 0, metres.
+    // Depth of the nearest caster there can be; from a point, near / distance.
     nearest: f32,
     slope_axis: vec3f,
     pad_c: f32,

@@ -37,13 +37,10 @@ fn blocker(point: MapPoint, kernel: LightKernel, stored: Stored) -> f32 {
 // Reach of a blocker of this depth somewhere in a cell of texels, or more. In perspective, by the triangle of receiver, blocker and
 // light: a blocker at distance b of a light of radius R has (1 + reach) b ≤ d + reach R, with d the receiver's distance.
 fn reach_of_cell(point: MapPoint, kernel: LightKernel, low: vec2f, high: vec2f, nearest: f32) -> f32 {
-    let axis = map.layers[point.layer].axis;
-    if WARPED {
-        return reach_of(point, kernel, select(low, high, axis.xy > vec2f(0.0)) - point.texel, nearest);
-    }
     if !PERSPECTIVE {
         return reach_of(point, kernel, vec2f(0.0), nearest);
     }
+    let axis = map.layers[point.layer].axis;
     let off_axis = select((clamp(axis.xy, low, high) - axis.xy) * axis.zw, vec2f(0.0), LAYOUT == PARABOLOIDS);
     let distance = sqrt(1.0 + dot(off_axis, off_axis)) / (map.layers[point.layer].per_metre * max(nearest, 1e-30));
     return reach_beyond(kernel, distance);
@@ -94,7 +91,7 @@ fn farthest_reach(point: MapPoint, kernel: LightKernel) -> f32 {
     if PERSPECTIVE {
         reach = min(whole, reach_beyond(kernel, 1.0 / (map.layers[point.layer].per_metre * max(nearest, 1e-30))));
     } else {
-        reach = min(whole, reach_of_nearest(point, kernel));
+        reach = min(whole, reach_of(point, kernel, vec2f(0.0), nearest));
     }
     for (var i = 0; BOUNDED && i < ROUNDS && reach > 0.0; i++) {
         reach = reach_within(point, kernel, reach);

@@ -152,12 +152,20 @@ impl<'a> Subject<'a> {
 
     /// The horizon that leaves no perspective between a plane's place on the screen and in the map: it goes through the line in
     /// which the plane meets that of the camera (SG "Thesis of Hamilton Yu-Ik Chong").
-    pub fn plane_optimal(&self, plane: Option<DVec4>) -> DVec3 {
-        let Some(plane) = plane.or_else(|| self.dominant_plane()) else { return DVec3::Z };
+    pub fn plane_optimal(&self, plane: DVec4) -> DVec3 {
         let (ahead, light) = (self.view[2], self.rays.light);
         let above = plane.dot(light);
         let horizon = self.rays.coordinates(ahead * above - plane * ahead.dot(light));
         if above < 0.0 { -horizon } else { horizon }
+    }
+
+    /// The plane whose optimum makes texels smallest on all that is seen: that of the receivers' boxes which most of the picture shows, of
+    /// those that face the light, or the level one under everything.
+    pub fn best_plane(&self, fit: &Fit) -> DVec4 {
+        let lowest = self.points.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
+        let level = DVec4::new(0.0, 1.0, 0.0, -lowest);
+        let size = |plane: DVec4| self.texel_on_screen(self.plane_optimal(plane), fit);
+        self.dominant_plane().filter(|plane| size(*plane) < size(level)).unwrap_or(level)
     }
 
     /// Between `horizon` and infinity, where texels are smallest on all that is seen.
@@ -174,7 +182,7 @@ impl<'a> Subject<'a> {
         share_of_least(&|share| self.texel_on_screen(at(share), fit)).map_or(horizon, at)
     }
 
-    /// The plane of the receivers' boxes that most of the picture shows, of those that face the light.
+    /// The plane that most of the places share.
     fn dominant_plane(&self) -> Option<DVec4> {
         let plane = |s: &Surface| s.normal.extend(-s.normal.dot(s.point));
         let tolerance = 1e-6 * (self.range[1] + self.points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max));

@@ -44,7 +44,7 @@ pub enum Warp {
     },
     /// The one that makes texels uniform on the screen on a plane.
     Plane {
-        /// Unit normal and offset of the plane; `None` for the one that most of the screen shows.
+        /// Unit normal and offset of the plane; `None` for the one that most of the picture shows, or the ground, whichever is better.
         plane: Option<DVec4>,
         /// Moves the horizon away from there as far as makes texels smallest on all that is seen, to infinity where it does not help at all.
         gives_way: bool,
@@ -145,7 +145,7 @@ impl Task<'_> {
             }
             Warp::LightSpace { strength } => subject.light_space(strength),
             Warp::Plane { plane, gives_way } => {
-                let horizon = subject.plane_optimal(plane);
+                let horizon = subject.plane_optimal(plane.unwrap_or_else(|| subject.best_plane(self.fit)));
                 if gives_way { subject.given_way(horizon, self.fit) } else { horizon }
             }
         };
