@@ -86,7 +86,7 @@ impl<'a> Subject<'a> {
         let [nearest, farthest] = self.range;
         let least = (least_near.max(NEAREST * farthest) - nearest).max(0.0);
         let (near, far) = (nearest + least, farthest + least);
-        if !(far > near * (1.0 + 1e-9)) {
+        if far <= near * (1.0 + 1e-9) {
             return None;
         }
         if !shift {
