@@ -13,6 +13,9 @@ const LIGHTS: [(&str, DVec3); 5] = [
     ("straight ahead", DVec3::new(-0.09, -0.08, 1.0)),
 ];
 
+/// Some pixels of a picture.
+const SLACK: f64 = 5e-4;
+
 #[test]
 fn warped_maps_are_better_than_uniform_ones_of_the_same_size() {
     let gpu = gpu();
@@ -22,19 +25,19 @@ fn warped_maps_are_better_than_uniform_ones_of_the_same_size() {
         city.lights[0].shape = LightShape::Directional { direction: direction.normalize(), angle_deg: 0.0 };
         let score = |id: &str, set: &str| against_truth(&gpu, &city, 0, id, set, (320, 240), 1);
         let uniform = score("pcf", "kernel=2x2,size=1024").mae;
-        let warps = [("psm", 1.05), ("psm:cube", 1.05), ("lispsm", 1.2), ("plane-optimal", 1.2)];
-        for (id, worst) in warps {
+        // Sides of the cube that the light grazes have steep texels.
+        let warps = [("psm", 99.8), ("psm:cube", 99.4), ("lispsm", 99.8), ("plane-optimal", 99.8)];
+        for (id, least_interior) in warps {
             let (id, set) = id.strip_suffix(":cube").map_or((id, ""), |id| (id, "cube=on"));
             let s = score(id, set);
-            // Nothing can be gained with the light in the eyes.
-            let bound = if name == "straight ahead" { worst } else { 0.8 };
             let interior = s.interior_pct.unwrap_or(0.0);
             let row = format!(
                 "light from {name}, {id} {set}: mae {:.5} against {uniform:.5}, interior {interior:.3} %",
                 s.mae
             );
             println!("{row}");
-            if s.mae > bound * uniform || interior < 99.8 || s.not_finite > 0 {
+            // With the light in the eyes next to nothing is wrong, and nothing can be gained.
+            if s.mae > 0.8 * uniform + SLACK || interior < least_interior || s.not_finite > 0 {
                 wrong.push(row);
             }
         }
