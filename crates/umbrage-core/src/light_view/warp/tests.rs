@@ -173,7 +173,7 @@ fn mean_texel(views: &[LightView], camera: &CameraView, scene: &FitScene, toward
     let lit = places.iter().filter(|s| s.normal.dot(toward_light) > 0.0);
     let sizes = lit.filter_map(|s| {
         let weight = s.normal.dot(toward_light);
-        Some((weight, weight * texel_on_screen(views, camera, (512, 384), s.point, s.normal)?))
+        Some((weight, weight * texel_on_screen(views, &[], camera, (512, 384), s.point, s.normal)?))
     });
     let (count, weight, sum) = sizes.fold((0, 0.0, 0.0), |(n, w, s), (weight, size)| (n + 1, w + weight, s + size));
     (count > 20).then(|| sum / weight)
@@ -247,7 +247,7 @@ fn texels_on_the_plane_are_the_same_all_over_the_screen() {
             fit_warped(light, &camera, &scene, &Warp::Plane { plane, gives_way: false }, &FIT, &mut views);
             let points = seen_points(&camera, &scene, &mut random).into_iter().filter(|p| p.y == 0.0);
             let sizes: Vec<f64> =
-                points.filter_map(|p| texel_on_screen(&views, &camera, (400, 300), p, DVec3::Y)).collect();
+                points.filter_map(|p| texel_on_screen(&views, &[], &camera, (400, 300), p, DVec3::Y)).collect();
             // What stands on the plane can ask for another horizon; then there is nothing to check.
             let Some(view) = views.first() else { continue };
             let ahead = camera.forward().extend(-camera.forward().dot(camera.eye));
