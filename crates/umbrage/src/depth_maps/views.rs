@@ -61,7 +61,7 @@ impl Views {
             cascades: (cascades.count > 0).then_some(cascades),
             warp: super::warped::warp(settings),
             blend,
-            softness_m: settings.float("softness"),
+            softness_m: settings.float("radius-m"),
             depth_fit: settings.switch("depth-fit"),
         }
     }

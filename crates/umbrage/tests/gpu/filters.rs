@@ -120,7 +120,8 @@ fn odd_lights_give_shares() {
     let scene = under(lights[0].1.clone());
     let mut all = Vec::new();
     for (info, variant) in variants() {
-        for set in ["size=256", "size=256,focus=light", "size=1"] {
+        let focuses = info.params.iter().any(|p| p.name == "focus").then_some("size=256,focus=light");
+        for set in ["size=256", "size=1"].into_iter().chain(focuses) {
             let set = joined(set, variant);
             all.extend(faults(&mut renderer(&gpu, &scene, 0, info.id, &set, SMALL), &scene, &lights, info));
         }

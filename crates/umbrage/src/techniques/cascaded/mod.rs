@@ -44,8 +44,8 @@ const KERNEL: Param = Param {
     kind: ParamKind::Choice { values: &["2x2", "3", "5", "7", "disc"] },
 };
 
-const SOFTNESS: Param = Param {
-    name: "softness",
+const RADIUS_M: Param = Param {
+    name: "radius-m",
     help: "Radius of `pcf` and `pcf-jitter` in metres, the same in all parts; 0 for their own one in texels. Those of `pcss` follow the light.",
     unit: "m",
     kind: ParamKind::Float { min: 0.0, max: 1e6, default: 0.0 },
@@ -96,7 +96,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     features: wgpu::Features::empty(),
     hard: false,
     params: &[
-        SIZE, SPLITS, LAMBDA, DISTANCE, FILTER, KERNEL, SOFTNESS, FIT, DEPTH_FIT, STABILIZE, MARGIN, BLEND, CACHE,
+        SIZE, SPLITS, LAMBDA, DISTANCE, FILTER, KERNEL, RADIUS_M, FIT, DEPTH_FIT, STABILIZE, MARGIN, BLEND, CACHE,
         FACES, BIAS,
     ],
     views: &LAYER_NAMES,

@@ -53,7 +53,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     make: |gpu, settings| {
         let side = match settings.choice("kernel") {
             // Squares are whole texels wide; a softness in metres is not.
-            _ if settings.float("softness") > 0.0 => 0,
+            _ if settings.float("radius-m") > 0.0 => 0,
             "2x2" => 2,
             "disc" => 0,
             side => side.parse().unwrap_or(3),
