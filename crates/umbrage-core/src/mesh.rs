@@ -1,7 +1,7 @@
 //! Triangle meshes.
 
 use crate::{bounds::Bounds, rig::Weights, weld::weld_mesh};
-use glam::{DAffine3, DVec4, Vec2, Vec3};
+use glam::{DAffine3, DVec3, DVec4, Vec2, Vec3};
 
 /// Indexed triangles in the mesh's own space.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,10 +32,20 @@ impl Mesh {
     }
 
     /// [`Mesh::indices`] with the first vertex at exactly its place for each, unless joints may part them:
-    /// fewer vertices where only places count.
+    /// fewer vertices where only places count. A triangle whose corners are on a line, and stay there, is one vertex: projected,
+    /// rounding could open it to a sliver.
     pub fn welded_indices(&self) -> Vec<u32> {
         let first = weld_mesh(self);
-        self.indices.iter().map(|&i| first.get(i as usize).copied().unwrap_or(i)).collect()
+        let mut welded: Vec<u32> = self.indices.iter().map(|&i| first.get(i as usize).copied().unwrap_or(i)).collect();
+        let triangles = welded.as_chunks_mut::<3>().0.iter_mut().filter(|_| self.weights.is_empty());
+        for triangle in triangles.filter(|t| t.iter().all(|i| (*i as usize) < self.positions.len())) {
+            let [a, b, c] = self.corners(*triangle).map(|p| p.as_dvec3());
+            // Exact: twice the 24 bits of single precision fit double precision.
+            if (b - a).cross(c - a) == DVec3::ZERO {
+                *triangle = [triangle[0]; 3];
+            }
+        }
+        welded
     }
 
     /// The corners of a triangle.
@@ -165,7 +175,13 @@ fn angle_at(corners: [Vec3; 3], k: usize) -> f32 {
 mod tests {
     use super::*;
     use crate::primitive;
-    use glam::DVec3;
+
+    #[test]
+    fn triangles_that_are_lines_weld_to_a_point() {
+        let positions = [[0.0, 1.0, 0.0], [0.5, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 2.0, 0.0]].map(Vec3::from).to_vec();
+        let mesh = Mesh { positions, indices: vec![0, 1, 2, 0, 2, 3], ..Mesh::default() };
+        assert_eq!(mesh.welded_indices(), [0, 0, 0, 0, 2, 3]);
+    }
 
     #[test]
     fn only_flat_meshes_have_a_plane() {
