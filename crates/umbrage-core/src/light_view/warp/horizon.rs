@@ -234,14 +234,19 @@ fn stretch(m: DMat2) -> f64 {
     (0.5 * (sum + (sum * sum - 4.0 * product * product).max(0.0).sqrt())).sqrt()
 }
 
-/// Where from 0 to 1 a function is least: as far as steps and what is around the best of them tell.
+/// Least gain in the size of texels that a warp is worth: its texels are longer than wide, and it is chosen by boxes around receivers.
+const WORTH: f64 = 0.7;
+
+/// Where from 0 to 1 a function is least, as far as steps and what is around the best of them tell; 1, no warp, where that is not worth
+/// it.
 fn share_of_least(score: &dyn Fn(f64) -> f64) -> Option<f64> {
     let step = 1.0 / f64::from(STEPS);
     let at = |share: f64| (share, score(share));
     let less = |a: &(f64, f64), b: &(f64, f64)| a.1.total_cmp(&b.1);
     let (middle, least) = (0..=STEPS).map(|i| at(step * f64::from(i))).min_by(less)?;
     let closer = golden((middle - step).max(0.0), (middle + step).min(1.0), &at);
-    [closer, (middle, least)].into_iter().min_by(less).map(|best| best.0)
+    let best = [closer, (middle, least)].into_iter().min_by(less)?;
+    Some(if best.1 <= WORTH * score(1.0) { best.0 } else { 1.0 })
 }
 
 /// The least value of a function with one minimum between two places, and where it is: by the golden section.
