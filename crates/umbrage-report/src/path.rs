@@ -113,9 +113,10 @@ mod tests {
                     * start.eye.distance(start.target);
             let at = |frame| place(&path.camera(&start, frame, size.1), point, size);
             let turn = (size.1 / 16).min(MOST_STEPS);
+            // Steps forward grow as what is ahead comes nearer.
             for frame in 0..turn {
                 let step = at(frame).distance(at(frame + 1));
-                assert!((0.4..2.1).contains(&step), "{} from frame {frame}: {step}", path.name());
+                assert!((0.4..2.3).contains(&step), "{} from frame {frame}: {step}", path.name());
             }
             assert_eq!(path.camera(&start, 0, size.1).eye, start.eye);
             assert_eq!(path.camera(&start, 2 * turn, size.1), path.camera(&start, 0, size.1));

@@ -68,7 +68,11 @@ fn values_out_of_range_name_the_range() {
     refused(&[], "render contact --light 0 --aov depth --overlay 0.5 -o a.png", &["--overlay", "--aov color"]);
     refused(&[], "render contact --light 0 --technique volume --aov count --size 8x8 -o a.exr", &["a.exr", ".png"]);
     refused(&[], "bench contact --overlay", &["--lights-together"]);
-    refused(&[], "bench contact --moving lihgts", &["--moving", "lihgts", "did you mean `lights`", "none, lights"]);
+    refused(
+        &[],
+        "bench contact --moving lihgts",
+        &["--moving", "lihgts", "did you mean `lights`", "none, still, lights"],
+    );
 }
 
 #[test]
