@@ -16,6 +16,7 @@ pub mod adjacency;
 pub mod bounds;
 pub mod camera;
 mod convex;
+pub mod coverage;
 pub mod frustum;
 pub mod image;
 pub mod light;
@@ -36,6 +37,7 @@ pub mod solid;
 pub mod splits;
 mod view_body;
 mod volume;
+pub mod wedge;
 mod weld;
 
 pub use bounds::Bounds;
