@@ -58,6 +58,8 @@ pub struct Adjacency {
     /// True where at every edge as many triangles run one way as the other; for no triangles too. As many triangles then
     /// show their front as their back along any line between two points outside the box, whichever the shape.
     pub is_closed: bool,
+    /// Share of the edges, 0…1, that keep it from being closed: holes, borders, and triangles wound against their neighbours.
+    pub open_share: f64,
     /// No more triangles than this that face away from the light (for meshes that are not closed: triangles) lie on any
     /// line that starts at a light outside the box. Convex parts, up to the rounding of their vertices, count once
     /// (twice), of others every second (every) triangle. Of a mesh with joints no part is taken for convex.
@@ -77,6 +79,7 @@ impl Adjacency {
         let length_squared = |e: &Edge| position(e.vertices[0]).distance_squared(position(e.vertices[1]));
         Self {
             is_closed: edges.iter().all(Edge::is_balanced),
+            open_share: edges.iter().filter(|e| !e.is_balanced()).count() as f64 / edges.len().max(1) as f64,
             layers: layers::count(&corners, &edges, mesh.weights.is_empty()),
             longest_edge: edges.iter().map(length_squared).fold(0.0, f64::max).sqrt(),
             planes: planes(&triangles, mesh, center).collect(),

@@ -19,6 +19,11 @@ pub use crate::{
 ///
 /// `None` where the camera sees no receiver, so that no caster matters.
 pub fn shadow_hull(camera: &CameraView, receivers: &Bounds, light_center: DVec4) -> Option<Convex> {
+    soft_shadow_hull(camera, receivers, &[light_center])
+}
+
+/// The same for a light that is spread out: `light` are points (w = 1) or directions (w = 0) whose hull holds it.
+pub fn soft_shadow_hull(camera: &CameraView, receivers: &Bounds, light: &[DVec4]) -> Option<Convex> {
     let view = ViewBody::of(camera);
     let receivers = view.relative_box(receivers);
     view.clip_corners(&receivers)?;
@@ -33,12 +38,8 @@ pub fn shadow_hull(camera: &CameraView, receivers: &Bounds, light_center: DVec4)
     if seen.grown(1e-12 * seen.largest_coordinate()).side(&receivers) == Side::Outside {
         return None;
     }
-    let light = view.relative(light_center);
-    let points: [DVec4; 9] = std::array::from_fn(|i| match i {
-        0..4 => near[i].extend(1.0),
-        4..8 => far[i - 4].extend(1.0),
-        _ => light,
-    });
+    let seen = near.into_iter().chain(far).map(|p| p.extend(1.0));
+    let points: Vec<DVec4> = seen.chain(light.iter().map(|p| view.relative(*p))).collect();
     Some(Convex::hull_about(camera.eye, &points))
 }
 

@@ -116,7 +116,7 @@ impl Edges {
     }
 
     pub fn draw_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-        layout(gpu, "edges", wgpu::ShaderStages::VERTEX, &[STORAGE; 5])
+        layout(gpu, "edges", wgpu::ShaderStages::VERTEX | wgpu::ShaderStages::COMPUTE, &[STORAGE; 5])
     }
 
     /// Of a mesh, by its number in the scene.

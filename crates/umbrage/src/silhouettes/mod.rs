@@ -194,6 +194,7 @@ impl Silhouettes {
     /// Makes pipelines; buffers follow.
     pub fn new(gpu: &Gpu, extrude: Extrude) -> Self {
         let storage = [STORAGE; 3];
+        let stages = wgpu::ShaderStages::VERTEX | wgpu::ShaderStages::COMPUTE;
         Self {
             extrude,
             find: (extrude == Extrude::Compute).then(|| Find::new(gpu)),
@@ -201,7 +202,7 @@ impl Silhouettes {
             shape: Shape::default(),
             extrusion: Extrusion::default(),
             indices: gpu.buffer("corners of sides and caps", &indices(), wgpu::BufferUsages::INDEX),
-            draw_layout: layout(gpu, "silhouettes", wgpu::ShaderStages::VERTEX, &[&storage[..], &[UNIFORM]].concat()),
+            draw_layout: layout(gpu, "silhouettes", stages, &[&storage[..], &[UNIFORM]].concat()),
             buffers: None,
         }
     }
@@ -290,6 +291,26 @@ impl Silhouettes {
                 }
             }
         }
+    }
+
+    /// What compute shaders take as group 0 to read casters and what was found; group 1 is [`Edges::draw`].
+    pub fn found_by_gpu(&self) -> Option<&wgpu::BindGroup> {
+        self.buffers.as_ref().map(|b| &b.draw)
+    }
+
+    /// Sides that may be found at most.
+    pub fn room(&self, part: Part) -> u32 {
+        self.work.room(part)
+    }
+
+    /// Arguments of an indirect draw of a part with a quad for each side, whatever draws it.
+    pub fn arguments(&self, part: Part) -> Option<(&wgpu::Buffer, u64)> {
+        self.buffers.as_ref().map(|b| (&b.arguments, part as u64 * find::ARGUMENTS))
+    }
+
+    /// The indices that go with them.
+    pub fn corner_indices(&self) -> &wgpu::Buffer {
+        &self.indices
     }
 
     /// True where a part has nothing to draw, as far as the CPU knows.

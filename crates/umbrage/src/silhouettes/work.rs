@@ -173,6 +173,10 @@ impl Work {
         }
     }
 
+    pub fn room(&self, part: Part) -> u32 {
+        self.room[part as usize]
+    }
+
     pub fn looked_at(&self) -> (u64, u64) {
         (self.edges, self.triangles)
     }

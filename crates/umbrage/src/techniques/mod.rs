@@ -27,6 +27,7 @@ techniques![
     lispsm,
     plane_optimal,
     volume,
+    wedges,
 ];
 
 /// All techniques, in the order in which they are best explained.

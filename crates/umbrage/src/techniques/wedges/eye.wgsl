@@ -1,0 +1,51 @@
+// Counts the shadows that the eye is in: triangles that throw one and lie between eye and light.
+
+struct EyeChunk {
+    caster: u32,
+    // Its triangles from this one on.
+    first: u32,
+}
+
+@group(1) @binding(2) var<storage, read> positions: array<f32>;
+@group(1) @binding(3) var<storage, read> indices: array<u32>;
+@group(1) @binding(4) var<storage, read> instances: array<Instance>;
+@group(2) @binding(0) var<uniform> light: WedgeLight;
+@group(2) @binding(1) var<storage, read> eye_chunks: array<EyeChunk>;
+@group(2) @binding(2) var<storage, read_write> eye_count: atomic<u32>;
+
+fn corner(caster: u32, triangle: u32, k: u32) -> vec3f {
+    let index = casters[caster].first_index + 3u * triangle + k;
+    let at = 3u * (casters[caster].base_vertex + indices[index]);
+    let p = vec3f(positions[at], positions[at + 1u], positions[at + 2u]);
+    return world_from_mesh(casters[caster].instance, p) + light.eye_from_origin;
+}
+
+@compute @workgroup_size(64)
+fn count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) place: u32) {
+    let number_of_chunk = group.x + group.y * groups.x;
+    if number_of_chunk >= arrayLength(&eye_chunks) {
+        return;
+    }
+    let chunk = eye_chunks[number_of_chunk];
+    let triangle = chunk.first + place;
+    if triangle >= casters[chunk.caster].triangle_count {
+        return;
+    }
+    let number = casters[chunk.caster].first_triangle + triangle;
+    if all(planes[number].xyz == vec3f(0.0)) || share(chunk.caster, number) == 0 {
+        return;
+    }
+    let a = corner(chunk.caster, triangle, 0u);
+    let b = corner(chunk.caster, triangle, 1u);
+    let c = corner(chunk.caster, triangle, 2u);
+    let l = light.center.xyz;
+    let sides = vec3f(dot(cross(a, b), l), dot(cross(b, c), l), dot(cross(c, a), l));
+    let volume = dot(cross(a, b), c);
+    let sum = sides.x + sides.y + sides.z;
+    let is_crossed = all(sides >= vec3f(0.0)) || all(sides < vec3f(0.0));
+    // The eye is at the origin: the segment meets the plane at this share of the way to the light.
+    let t = volume / sum;
+    if is_crossed && t > 0.0 && (t < 1.0 || light.center.w == 0.0) {
+        atomicAdd(&eye_count, 1u);
+    }
+}

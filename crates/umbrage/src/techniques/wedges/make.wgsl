@@ -1,0 +1,183 @@
+// Builds the wedge of every silhouette edge that was listed: see `wedge` in the core crate.
+
+@group(0) @binding(2) var<storage, read> list: array<u32>;
+@group(1) @binding(2) var<storage, read> positions: array<f32>;
+@group(1) @binding(4) var<storage, read> instances: array<Instance>;
+@group(2) @binding(0) var<uniform> light: WedgeLight;
+@group(2) @binding(1) var<storage, read_write> wedges: array<Wedge>;
+@group(2) @binding(2) var<storage, read_write> draw: array<u32, 5>;
+
+// Wedges that an instance draws, and indices of one.
+const GROUP: u32 = 64u;
+const INDICES: u32 = 24u;
+
+// Depth that is behind everything.
+override FAR: f32 = 0.0;
+
+// Bodies are larger than wedges by this share, so that rounding cuts nothing off.
+const SLACK: f32 = 1e-3;
+
+fn place(caster: u32, vertex: u32) -> vec3f {
+    let at = 3u * vertex;
+    let p = vec3f(positions[at], positions[at + 1u], positions[at + 2u]);
+    return world_from_mesh(casters[caster].instance, p) + light.eye_from_origin;
+}
+
+fn no_wedge() -> Wedge {
+    var wedge: Wedge;
+    wedge.weight = 0.0;
+    for (var i = 0u; i < 6u; i++) {
+        wedge.corners[i] = vec4f(2.0, 2.0, 0.0, 1.0);
+    }
+    return wedge;
+}
+
+// Covers the screen: corners of the far face are those of the screen, turned to be seen from within, all others fall together.
+fn everywhere(wedge: ptr<function, Wedge>) {
+    for (var i = 0u; i < 4u; i++) {
+        (*wedge).planes[i] = vec4f(0.0, 0.0, 0.0, -1.0);
+    }
+    (*wedge).corners[5] = vec4f(-1.0, -1.0, FAR, 1.0);
+    (*wedge).corners[4] = vec4f(-1.0, 1.0, FAR, 1.0);
+    (*wedge).corners[2] = vec4f(1.0, 1.0, FAR, 1.0);
+    (*wedge).corners[3] = vec4f(1.0, -1.0, FAR, 1.0);
+    (*wedge).corners[0] = (*wedge).corners[2];
+    (*wedge).corners[1] = (*wedge).corners[4];
+}
+
+// Of all n = cos φ axis + sin φ other with n · d ≥ radius for the directions from the light to `ends`, the first and the last φ.
+fn span(axis: vec3f, other: vec3f, ends: array<vec3f, 2>) -> vec2f {
+    var found = vec2f(-10.0, 10.0);
+    for (var i = 0u; i < 8u; i++) {
+        let corner = light.corners[i / 2u].xyz;
+        let d = select(ends[i % 2u] - corner, -corner, light.parallel != 0u);
+        let at = vec2f(dot(d, axis), dot(d, other));
+        let far = length(at);
+        let radius = light.radius * (1.0 + SLACK) + SLACK * 0.01 * far;
+        if !(far > radius) {
+            return vec2f(1.0, -1.0);
+        }
+        let middle = atan2(at.y, at.x);
+        let half = acos(radius / far);
+        found = vec2f(max(found.x, middle - half), min(found.y, middle + half));
+    }
+    return found;
+}
+
+fn ray(end: vec3f, side: vec3f, sum: vec3f) -> vec3f {
+    let r = cross(end, side);
+    return normalize(select(-r, r, dot(r, sum) >= 0.0));
+}
+
+// In light space; false where no such body holds the wedge.
+fn body(a: vec3f, b: vec3f, wedge: ptr<function, Wedge>) -> bool {
+    let away_a = select(normalize(a), -light.corners[0].xyz, light.parallel != 0u);
+    let away_b = select(normalize(b), -light.corners[0].xyz, light.parallel != 0u);
+    var main = away_a + away_b;
+    let edge_length = length(b - a);
+    if !(length(main) > 1e-3) || !(edge_length > 0.0) {
+        return false;
+    }
+    main = normalize(main);
+    let edge = (b - a) / edge_length;
+    var aside = cross(edge, main);
+    if dot(aside, aside) < 1e-10 {
+        aside = across(main)[0];
+    }
+    aside = normalize(aside);
+    let along = cross(main, aside);
+    let ends = array<vec3f, 2>(a, b);
+    let across_ends = span(main, along, ends);
+    if !(across_ends.x < across_ends.y) {
+        return false;
+    }
+    let low = main * cos(across_ends.x) + along * sin(across_ends.x);
+    let high = main * cos(across_ends.y) + along * sin(across_ends.y);
+    let near_low = select(b, a, dot(low, a - b) <= 0.0);
+    let near_high = select(b, a, dot(high, a - b) <= 0.0);
+    var axis = away_a;
+    var held = ends;
+    if any(near_low != near_high) {
+        axis = normalize(main - edge * dot(main, edge));
+        held = array<vec3f, 2>(a, a);
+    } else if all(near_low == b) {
+        axis = away_b;
+    }
+    let sides = span(axis, aside, held);
+    if !(sides.x < sides.y) {
+        return false;
+    }
+    let front = axis * cos(sides.x) + aside * sin(sides.x);
+    let back = axis * cos(sides.y) + aside * sin(sides.y);
+    let normals = array<vec3f, 4>(front, back, low, high);
+    let sum = front + back + low + high;
+    let rays = array<vec3f, 4>(ray(low, front, sum), ray(low, back, sum), ray(high, front, sum), ray(high, back, sum));
+    for (var i = 0u; i < 4u; i++) {
+        for (var k = 0u; k < 4u; k++) {
+            // Not so if a number is not one.
+            if !(dot(normals[i], rays[k]) > -1e-4) {
+                return false;
+            }
+        }
+    }
+    for (var i = 0u; i < 4u; i++) {
+        let n = transposed(light, normals[i]);
+        let least = min(dot(normals[i], a), dot(normals[i], b)) + dot(n, light.center.xyz * light.center.w);
+        (*wedge).planes[i] = vec4f(n, least - SLACK * 0.01 * abs(least));
+        (*wedge).corners[i + 2u] = light.clip_from_eye * vec4f(light_inverse(light, rays[i]), 0.0);
+    }
+    (*wedge).corners[0] = corner_of(near_low, low + front + back);
+    (*wedge).corners[1] = corner_of(near_high, high + front + back);
+    return true;
+}
+
+// A corner from light space to the screen, moved out by what rounding may move it.
+fn corner_of(p: vec3f, inwards: vec3f) -> vec4f {
+    let out = p - inwards * (light.rounding * (length(p) + 1.0));
+    return light.clip_from_eye * vec4f(light_inverse(light, out) + light.center.xyz * light.center.w, 1.0);
+}
+
+@compute @workgroup_size(64)
+fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) place_in: u32) {
+    let number = (group.x + group.y * groups.x) * GROUP + place_in;
+    let count = list[1];
+    let used = (count + GROUP - 1u) / GROUP;
+    if number == 0u {
+        draw[0] = GROUP * INDICES;
+        draw[1] = used;
+    }
+    if number >= used * GROUP {
+        return;
+    }
+    if number >= count {
+        wedges[number] = no_wedge();
+        return;
+    }
+    let entry = list[list[0] + number];
+    let slot = entry >> 2u;
+    let caster = chunks[slot / CHUNK];
+    let edge = edges[casters[caster].first_edge + slot - casters[caster].edge_chunk * CHUNK];
+    let is_turned = ((entry & 1u) != 0u) != ((casters[caster].flags & MIRRORED) != 0u);
+    let one = place(caster, edge.start);
+    let other = place(caster, edge.end);
+    var wedge: Wedge;
+    wedge.start = select(one, other, is_turned);
+    wedge.end = select(other, one, is_turned);
+    wedge.weight = select(1.0, 2.0, (entry & 2u) != 0u);
+    let l = light.center;
+    let way = wedge.end - wedge.start;
+    // Both are the same plane; the light's place may be far away.
+    let to_light = l.xyz - wedge.start * l.w;
+    wedge.normal = normalize(cross(to_light, way));
+    wedge.eye_inside = f32(dot(wedge.normal, -wedge.start) >= 0.0);
+    let a = light_linear(light, wedge.start - l.xyz * l.w);
+    let b = light_linear(light, wedge.end - l.xyz * l.w);
+    if any(wedge.normal != wedge.normal) {
+        // An edge in line with the light, or without length.
+        wedge.normal = vec3f(0.0);
+    }
+    if !body(a, b, &wedge) {
+        everywhere(&wedge);
+    }
+    wedges[number] = wedge;
+}

@@ -1,0 +1,84 @@
+//! Soft shadow volumes: a penumbra wedge for every silhouette edge corrects the hard shadow, all of a light's in one draw.
+//!
+//! Sources: Assarsson and Akenine-Möller 2003; SG "A Soft Shadow Volume Algorithm"; PX 4, 6 and 7.2.
+
+mod light;
+mod pipelines;
+mod select;
+mod targets;
+mod technique;
+
+use crate::casters::{EDGES_WGSL, INSTANCES_WGSL, Instance};
+use crate::depth_maps::Eye;
+use crate::params::{Param, ParamKind};
+use crate::shader::{FULLSCREEN, RECEIVERS, Shader};
+use crate::silhouettes::{Caster, FIND_SHADER};
+use crate::technique::TechniqueInfo;
+use light::WedgeLight;
+use umbrage_core::LightKinds;
+
+const LIGHT: &str = concat!(include_str!("light.wgsl"), include_str!("seen.wgsl"));
+const COVERAGE: &str = include_str!("coverage.wgsl");
+const RECORD: &str = include_str!("record.wgsl");
+
+const MAKE_SHADER: Shader = Shader {
+    name: "make wedges",
+    parts: &[INSTANCES_WGSL, EDGES_WGSL, LIGHT, RECORD, include_str!("make.wgsl")],
+    layouts: &[WedgeLight::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
+};
+
+const EYE_SHADER: Shader = Shader {
+    name: "shadows of the eye",
+    parts: &[INSTANCES_WGSL, EDGES_WGSL, LIGHT, include_str!("eye.wgsl")],
+    layouts: &[WedgeLight::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
+};
+
+const DRAW_SHADER: Shader = Shader {
+    name: "wedges",
+    parts: &[
+        RECEIVERS,
+        LIGHT,
+        COVERAGE,
+        RECORD,
+        include_str!("draw.wgsl"),
+        include_str!("term_analytic.wgsl"),
+    ],
+    layouts: &[WedgeLight::LAYOUT, Eye::LAYOUT],
+};
+
+const RESOLVE_SHADER: Shader = Shader {
+    name: "wedge visibility",
+    parts: &[
+        FULLSCREEN,
+        RECEIVERS,
+        LIGHT,
+        COVERAGE,
+        include_str!("resolve.wgsl"),
+        include_str!("term_analytic.wgsl"),
+    ],
+    layouts: &[WedgeLight::LAYOUT, Eye::LAYOUT],
+};
+
+const PARAMS: &[Param] = &[Param {
+    name: "radius",
+    help: "Radius of point and spot lights, which are hard without one.",
+    unit: "m",
+    kind: ParamKind::Float { min: 0.0, max: 1000.0, default: 0.0 },
+}];
+
+/// See the module.
+pub const INFO: TechniqueInfo = TechniqueInfo {
+    id: "wedges",
+    title: "Penumbra wedges",
+    summary: "Corrects hard shadow volumes by what every silhouette edge covers of the light: soft shadows without noise, exact \
+              where the silhouette is the same from all of the light.",
+    source: "PX 4, 6, 7.2; SG \"A Soft Shadow Volume Algorithm\"",
+    lights: LightKinds::ALL,
+    features: wgpu::Features::empty(),
+    hard: false,
+    params: PARAMS,
+    views: &[],
+    shaders: &[FIND_SHADER, MAKE_SHADER, EYE_SHADER, DRAW_SHADER, RESOLVE_SHADER],
+    readme: include_str!("README.md"),
+    make: |gpu, settings| Ok(Box::new(technique::Wedges::new(gpu, settings))),
+};

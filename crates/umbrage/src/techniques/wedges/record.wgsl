@@ -1,0 +1,17 @@
+// A silhouette edge and its wedge, relative to the eye.
+
+struct Wedge {
+    start: vec3f,
+    // How often it counts.
+    weight: f32,
+    end: vec3f,
+    // 1 where the eye is on the side of the edge's hard shadow, else 0.
+    eye_inside: f32,
+    // Of the plane through edge and light, towards the side of the shadow.
+    normal: vec3f,
+    pad: f32,
+    // Inside is n · p ≥ w.
+    planes: array<vec4f, 4>,
+    // Corners in clip space: the near ones, then for each of them those of the front and the back face.
+    corners: array<vec4f, 6>,
+}

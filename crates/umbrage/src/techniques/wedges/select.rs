@@ -1,0 +1,82 @@
+//! Which casters throw shadows into the view, and which of them may shadow the eye.
+
+use super::light::Form;
+use crate::casters::{self, Casters, Edges};
+use crate::silhouettes::Throw;
+use crate::{error::Error, gpu::Gpu, view::View};
+use umbrage_core::glam::DVec4;
+use umbrage_core::shadow_hull::{segment_touches, soft_shadow_hull};
+use umbrage_core::silhouette::Rule;
+
+/// A mesh with no more open edges than this is a body with holes, and throws the shadow of its far side as a closed one does: both
+/// sides would cover the light twice.
+const MOST_OPEN: f64 = 0.03;
+
+/// Triangles that are searched together, see `eye.wgsl`.
+const CHUNK: u32 = 64;
+
+/// The casters of a frame. Keeps its memory.
+#[derive(Default)]
+pub(super) struct Selection {
+    pub throws: Vec<Throw>,
+    /// For chunks of triangles that may be between eye and light the number of the throw and their first triangle.
+    pub eye_chunks: Vec<[u32; 2]>,
+    found: Vec<u32>,
+}
+
+impl Selection {
+    /// Chooses.
+    pub fn choose(&mut self, gpu: &Gpu, view: &View<'_>, form: &Form, rounding: f64) -> Result<(), Error> {
+        self.throws.clear();
+        self.eye_chunks.clear();
+        self.found.clear();
+        let casters = view.casters;
+        if !view.light.casts || casters.casting().is_empty() {
+            return Ok(());
+        }
+        let edges = casters.edges(gpu)?;
+        let hull = form.hull();
+        let receivers = casters.receivers_bounds();
+        if let Some(body) = soft_shadow_hull(&view.camera, &receivers, &hull) {
+            casters.casting().query(&body, &mut self.found);
+        }
+        self.found.sort_unstable();
+        let lights: Vec<_> = hull.iter().map(|center| casters::Light { center: *center, receivers }).collect();
+        for &place in &self.found {
+            let placed = &casters.placed()[place as usize];
+            let is_empty = placed.bounds.is_empty() || placed.sides.is_none();
+            if is_empty || lights.iter().all(|light| placed.shadows_nothing(light)) {
+                continue;
+            }
+            let mesh = edges.of_mesh(placed.mesh);
+            if !mesh.adjacency.edges.is_empty() {
+                self.throws.push(throw(place, mesh.adjacency.open_share));
+            }
+        }
+        self.search_eye(casters, edges, view, form.center, rounding);
+        Ok(())
+    }
+
+    fn search_eye(&mut self, casters: &Casters, edges: &Edges, view: &View<'_>, center: DVec4, rounding: f64) {
+        for (number, throw) in (0..).zip(&self.throws) {
+            let placed = &casters.placed()[throw.place as usize];
+            let margin = 8.0 * rounding * placed.bounds.largest_coordinate().max(view.camera.eye.abs().max_element());
+            if segment_touches(view.camera.eye, center, &placed.bounds, margin) {
+                let triangles = edges.of_mesh(placed.mesh).triangle_count;
+                self.eye_chunks.extend((0..triangles.div_ceil(CHUNK)).map(|i| [number, i * CHUNK]));
+            }
+        }
+    }
+}
+
+fn throw(place: u32, open_share: f64) -> Throw {
+    Throw {
+        place,
+        rule: if open_share <= MOST_OPEN { Rule::Away } else { Rule::All },
+        z_fail: false,
+        light_cap: false,
+        dark_cap: false,
+        end: DVec4::ZERO,
+        reach: 0.0,
+    }
+}

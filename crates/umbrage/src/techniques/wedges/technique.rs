@@ -1,0 +1,197 @@
+//! A frame: choose casters, find silhouettes, build wedges, add up what they cover, resolve.
+
+use super::light::Form;
+use super::pipelines::{Draw, Key, Pipelines};
+use super::select::Selection;
+use super::targets::{Buffers, GROUP, Target, lent_depth};
+use crate::casters::Edges;
+use crate::depth_maps::Eye;
+use crate::fullscreen::attachment;
+use crate::params::Settings;
+use crate::silhouettes::{Extrude, Part, Silhouettes, Style};
+use crate::technique::{Stats, Technique};
+use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+use umbrage_core::LightShape;
+use umbrage_core::glam::DVec3;
+
+pub(super) struct Wedges {
+    point_radius: f64,
+    silhouettes: Silhouettes,
+    pipelines: Pipelines,
+    selection: Selection,
+    body_indices: wgpu::Buffer,
+    buffers: Option<Buffers>,
+    target: Option<Target>,
+    form: Option<Form>,
+    casting: u32,
+    draws: u32,
+}
+
+/// Workgroups in a row, the most that every adapter allows.
+const ROW: u32 = 65_535;
+
+/// A few roundings of single precision.
+const ROUNDING: f64 = 1e-6;
+
+/// Of the six corners of a body the triangles of its far face, front, back and both ends, counter-clockwise from outside.
+const FACES: [u16; 24] = [5, 4, 2, 5, 2, 3, 1, 0, 2, 1, 2, 4, 0, 1, 5, 0, 5, 3, 0, 3, 2, 1, 4, 5];
+
+impl Wedges {
+    pub fn new(gpu: &Gpu, settings: &Settings) -> Self {
+        let silhouettes = Silhouettes::new(gpu, Extrude::Compute);
+        let indices: Vec<u16> = (0..GROUP as u16).flat_map(|i| FACES.map(|corner| i * 6 + corner)).collect();
+        Self {
+            point_radius: settings.float("radius"),
+            pipelines: Pipelines::new(gpu, silhouettes.layout()),
+            silhouettes,
+            selection: Selection::default(),
+            body_indices: gpu.buffer("corners of wedges", &indices, wgpu::BufferUsages::INDEX),
+            buffers: None,
+            target: None,
+            form: None,
+            casting: 0,
+            draws: 0,
+        }
+    }
+
+    fn key(&self, view: &View<'_>, draw: Draw) -> Key {
+        let depth = lent_depth(view.receivers).map(|d| (d.texture().format(), is_reversed(view)));
+        Key { draw, depth, has_normals: view.receivers.has_normals }
+    }
+
+    /// Makes room and pipelines.
+    fn make_ready(&mut self, gpu: &Gpu, view: &View<'_>, form: &Form) -> Result<(), Error> {
+        let style = Style { weighted: true, quads: true };
+        let projection = (&view.camera.clip_from_world(), is_reversed(view));
+        self.silhouettes.prepare(gpu, view.casters, projection, form.center, &self.selection.throws, style)?;
+        let (wedges, chunks) = (self.silhouettes.room(Part::PassSides), self.selection.eye_chunks.len() as u32);
+        if self.buffers.as_ref().is_none_or(|b| !b.hold(wedges, chunks)) {
+            self.buffers = Some(Buffers::new(gpu, &self.pipelines, wedges, chunks)?);
+            self.target = None;
+        }
+        if let Some(buffers) = &self.buffers
+            && self.target.as_ref().is_none_or(|t| t.size != view.receivers.size)
+        {
+            self.target = Some(Target::new(gpu, &self.pipelines, view.receivers.size, buffers));
+        }
+        self.pipelines.prepare_make(gpu, is_reversed(view));
+        for draw in [Draw::Sides, Draw::Bodies] {
+            self.pipelines.prepare(gpu, self.key(view, draw));
+        }
+        self.pipelines.prepare_resolve(gpu, !form.is_point(), view.receivers.has_normals);
+        Ok(())
+    }
+
+    fn build(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges, form: &Form) {
+        let Some(buffers) = &self.buffers else { return };
+        passes.upload(&buffers.light, bytemuck::bytes_of(&form.uniform(view, ROUNDING)));
+        passes.upload(&buffers.eye, bytemuck::bytes_of(&Eye::new(view)));
+        passes.upload(&buffers.eye_chunks, bytemuck::cast_slice(&self.selection.eye_chunks));
+        passes.upload(&buffers.eye_count, &[0; 4]);
+        passes.upload(&buffers.bodies, &[0; 20]);
+        self.silhouettes.record(passes, edges);
+        let Some(found) = self.silhouettes.found_by_gpu() else { return };
+        let mut pass = passes.compute("build wedges");
+        pass.set_bind_group(0, found, &[]);
+        pass.set_bind_group(1, &edges.draw, &[]);
+        if let Some(making) = self.pipelines.making(is_reversed(view)) {
+            let groups = self.silhouettes.room(Part::PassSides).div_ceil(GROUP);
+            pass.set_pipeline(making);
+            pass.set_bind_group(2, &buffers.make, &[]);
+            pass.dispatch_workgroups(groups.min(ROW), groups.div_ceil(ROW), 1);
+        }
+        let chunks = self.selection.eye_chunks.len() as u32;
+        if chunks > 0 {
+            pass.set_pipeline(&self.pipelines.count);
+            pass.set_bind_group(2, &buffers.count, &[]);
+            pass.dispatch_workgroups(chunks.min(ROW), chunks.div_ceil(ROW), 1);
+        }
+    }
+
+    fn add_up(&self, passes: &mut Passes<'_>, view: &View<'_>, soft: bool) -> u32 {
+        let (Some(buffers), Some(target)) = (&self.buffers, &self.target) else { return 0 };
+        let depth = lent_depth(view.receivers).map(|view| wgpu::RenderPassDepthStencilAttachment {
+            view,
+            depth_ops: None,
+            stencil_ops: None,
+        });
+        let clear = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
+        let mut pass = passes.render("wedges", &[attachment(&target.view, clear)], depth);
+        pass.set_bind_group(0, &view.receivers.bind_group, &[]);
+        pass.set_bind_group(1, &buffers.draw, &[]);
+        let mut draws = 0;
+        if let (Some(pipeline), Some((arguments, offset))) =
+            (self.pipelines.drawing(self.key(view, Draw::Sides)), self.silhouettes.arguments(Part::PassSides))
+        {
+            pass.set_pipeline(pipeline);
+            pass.set_index_buffer(self.silhouettes.corner_indices().slice(..), wgpu::IndexFormat::Uint16);
+            pass.draw_indexed_indirect(arguments, offset);
+            draws += 1;
+        }
+        if let Some(pipeline) = self.pipelines.drawing(self.key(view, Draw::Bodies)).filter(|_| soft) {
+            pass.set_pipeline(pipeline);
+            pass.set_index_buffer(self.body_indices.slice(..), wgpu::IndexFormat::Uint16);
+            pass.draw_indexed_indirect(&buffers.bodies, 0);
+            draws += 1;
+        }
+        draws
+    }
+}
+
+impl Technique for Wedges {
+    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
+        if view.camera.clip_from_view.row(3).truncate() == DVec3::ZERO {
+            let what = "parallel projections, since shadows are counted from the eye; choose `volume` or a map".into();
+            return Err(Error::Unsupported { technique: super::INFO.id.into(), what });
+        }
+        let has_picture = matches!(view.light.shape, LightShape::Rect { texture: Some(_), .. });
+        let form = Form::of(&view.light.shape, has_picture, self.point_radius);
+        self.casting = view.casters.casting().len() as u32;
+        self.selection.choose(gpu, view, &form, ROUNDING)?;
+        if !self.selection.throws.is_empty() {
+            self.make_ready(gpu, view, &form)?;
+        }
+        self.form = Some(form);
+        Ok(())
+    }
+
+    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+        visibility.check(view.receivers)?;
+        self.draws = 0;
+        let edges = view.casters.made_edges().filter(|_| !self.selection.throws.is_empty());
+        let (Some(edges), Some(form)) = (edges, self.form) else {
+            drop(passes.render("visibility", &[visibility.overwrite()], None));
+            return Ok(());
+        };
+        self.build(passes, view, edges, &form);
+        let soft = !form.is_point();
+        self.draws = self.add_up(passes, view, soft);
+        let mut pass = passes.render("visibility", &[visibility.overwrite()], None);
+        if let (Some(pipeline), Some(target)) =
+            (self.pipelines.resolving(soft, view.receivers.has_normals), &self.target)
+        {
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &view.receivers.bind_group, &[]);
+            pass.set_bind_group(1, &target.resolve, &[]);
+            pass.draw(0..3, 0..1);
+            self.draws += 1;
+        }
+        Ok(())
+    }
+
+    fn stats(&self) -> Stats {
+        let thrown = self.selection.throws.len() as u32;
+        let own = self.buffers.as_ref().map_or(0, Buffers::bytes) + self.target.as_ref().map_or(0, Target::bytes);
+        Stats {
+            draws: self.draws,
+            triangles: u64::from(self.silhouettes.room(Part::PassSides)) * 10,
+            casters_drawn: thrown,
+            casters_culled: self.casting.saturating_sub(thrown),
+            bytes: own + self.silhouettes.bytes() + self.body_indices.size(),
+        }
+    }
+}
+
+fn is_reversed(view: &View<'_>) -> bool {
+    view.camera.background_depth() == 0.0
+}
