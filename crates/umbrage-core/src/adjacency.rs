@@ -60,6 +60,8 @@ pub struct Adjacency {
     pub is_closed: bool,
     /// Share of the edges, 0…1, that keep it from being closed: holes, borders, and triangles wound against their neighbours.
     pub open_share: f64,
+    /// Length of the sum of all triangles' areas as vectors over the sum of their lengths, 0…1: 0 for a closed mesh, 1 for a flat one.
+    pub flatness: f64,
     /// No more triangles than this that face away from the light (for meshes that are not closed: triangles) lie on any
     /// line that starts at a light outside the box. Convex parts, up to the rounding of their vertices, count once
     /// (twice), of others every second (every) triangle. Of a mesh with joints no part is taken for convex.
@@ -80,6 +82,7 @@ impl Adjacency {
         Self {
             is_closed: edges.iter().all(Edge::is_balanced),
             open_share: edges.iter().filter(|e| !e.is_balanced()).count() as f64 / edges.len().max(1) as f64,
+            flatness: flatness(&corners),
             layers: layers::count(&corners, &edges, mesh.weights.is_empty()),
             longest_edge: edges.iter().map(length_squared).fold(0.0, f64::max).sqrt(),
             planes: planes(&triangles, mesh, center).collect(),
@@ -96,6 +99,12 @@ impl Adjacency {
     pub fn planes_in(&self, posed: &Mesh) -> Vec<Vec4> {
         planes(&self.triangles, posed, self.center).collect()
     }
+}
+
+fn flatness(corners: &[[DVec3; 3]]) -> f64 {
+    let areas = corners.iter().map(|[a, b, c]| (*b - *a).cross(*c - *a));
+    let (sum, all) = areas.fold((DVec3::ZERO, 0.0), |(sum, all), area| (sum + area, all + area.length()));
+    if all > 0.0 { sum.length() / all } else { 0.0 }
 }
 
 fn planes(triangles: &[[u32; 3]], mesh: &Mesh, center: DVec3) -> impl Iterator<Item = Vec4> {

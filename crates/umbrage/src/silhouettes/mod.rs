@@ -66,6 +66,7 @@ const MIRRORED: u32 = 2;
 const Z_FAIL: u32 = 4;
 const LIGHT_CAP: u32 = 8;
 const DARK_CAP: u32 = 16;
+const BODY: u32 = 32;
 
 /// Edges, or triangles, of one caster that go together.
 const CHUNK: u32 = 64;
@@ -90,6 +91,8 @@ pub(crate) struct Throw {
     /// Its number in [`Casters::placed`].
     pub place: u32,
     pub rule: Rule,
+    /// A body with holes: what it covers with its near side and with its far side is nearly the same and counts once.
+    pub is_body: bool,
     /// Counted from infinity instead of from the eye; needs caps.
     pub z_fail: bool,
     pub light_cap: bool,
@@ -346,6 +349,7 @@ fn caster(casters: &Casters, edges: &Edges, light: DVec4, throw: &Throw) -> Opti
         (throw.z_fail, Z_FAIL),
         (throw.light_cap, LIGHT_CAP),
         (throw.dark_cap, DARK_CAP),
+        (throw.is_body, BODY),
     ];
     let end = throw.end.truncate();
     Some(Caster {

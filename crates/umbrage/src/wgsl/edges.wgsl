@@ -39,6 +39,8 @@ const MIRRORED: u32 = 2u;
 const Z_FAIL: u32 = 4u;
 const LIGHT_CAP: u32 = 8u;
 const DARK_CAP: u32 = 16u;
+// Its near and its far side count apart.
+const BODY: u32 = 32u;
 
 const NO_TRIANGLE: u32 = 0x7fffffffu;
 const SAME_DIRECTION: u32 = 0x80000000u;

@@ -25,7 +25,8 @@ struct Side {
     @builtin(position) position: vec4f,
     @location(0) @interpolate(flat) start: vec3f,
     @location(1) @interpolate(flat) normal: vec3f,
-    @location(2) @interpolate(flat) counts: vec2f,
+    // Weights, and whether the eye is on the side of the shadow.
+    @location(2) @interpolate(flat) counts: vec3f,
 }
 
 // Corner 0…3 of a quad: end, start, start's shadow, end's shadow. It has no depth: whether it is in front of what is seen the
@@ -35,9 +36,9 @@ fn side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32)
     let number = group * GROUP + vertex / 4u;
     let corner = vertex % 4u;
     var out: Side;
-    out.counts = vec2f(wedges[number].weight, wedges[number].eye_inside);
+    out.counts = vec3f(wedges[number].weights, wedges[number].eye_inside);
     out.position = NOWHERE;
-    if out.counts.x == 0.0 {
+    if all(out.counts.xy == vec2f(0.0)) {
         return out;
     }
     out.start = wedges[number].start;
@@ -50,20 +51,22 @@ fn side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32)
 }
 
 @fragment
-fn add_side(in: Side) -> @location(0) f32 {
+fn add_side(in: Side) -> @location(0) vec2f {
     let depth = textureLoad(receiver_depth, vec2i(in.position.xy), 0);
     if depth == eye.background_depth {
         discard;
     }
-    let inside = is_inside(receiver(in.position.xy, depth), in.start, in.normal, in.counts.y);
-    return in.counts.x * (f32(inside) - in.counts.y);
+    let inside = is_inside(receiver(in.position.xy, depth), in.start, in.normal, in.counts.z);
+    return in.counts.xy * (f32(inside) - in.counts.z);
 }
 
 struct Body {
     @builtin(position) position: vec4f,
+    // With a weight each.
     @location(0) @interpolate(flat) start: vec4f,
     @location(1) @interpolate(flat) end: vec4f,
-    @location(2) @interpolate(flat) normal: vec3f,
+    // And whether the eye is on the side of the shadow.
+    @location(2) @interpolate(flat) normal: vec4f,
     @location(3) @interpolate(flat) front: vec4f,
     @location(4) @interpolate(flat) back: vec4f,
     @location(5) @interpolate(flat) low: vec4f,
@@ -79,9 +82,9 @@ fn body(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32)
     if !CLAMPS {
         out.position.z = 0.5 * out.position.w;
     }
-    out.start = vec4f(wedges[number].start, wedges[number].weight);
-    out.end = vec4f(wedges[number].end, wedges[number].eye_inside);
-    out.normal = wedges[number].normal;
+    out.start = vec4f(wedges[number].start, wedges[number].weights.x);
+    out.end = vec4f(wedges[number].end, wedges[number].weights.y);
+    out.normal = vec4f(wedges[number].normal, wedges[number].eye_inside);
     out.front = wedges[number].planes[0];
     out.back = wedges[number].planes[1];
     out.low = wedges[number].planes[2];
@@ -98,14 +101,14 @@ fn is_in_body(in: Body, p: vec3f) -> bool {
 }
 
 fn chord_seen(in: Body, p: vec3f, seen: Seen) -> Chord {
-    let inside = is_inside(p, in.start.xyz, in.normal, in.end.w);
+    let inside = is_inside(p, in.start.xyz, in.normal.xyz, in.normal.w);
     let a = on_face(seen, in.start.xyz - p);
     let b = on_face(seen, in.end.xyz - p);
     return chord(light.face >= RECT, a, b, inside == (seen.hand > 0.0), light.parallel == 0u);
 }
 
 @fragment
-fn add_wedge(in: Body) -> @location(0) f32 {
+fn add_wedge(in: Body) -> @location(0) vec2f {
     let depth = textureLoad(receiver_depth, vec2i(in.position.xy), 0);
     if depth == eye.background_depth {
         discard;
@@ -119,5 +122,5 @@ fn add_wedge(in: Body) -> @location(0) f32 {
     if c.side == 0.0 {
         discard;
     }
-    return term(c) * seen.hand * in.start.w;
+    return term(c) * seen.hand * vec2f(in.start.w, in.end.w);
 }

@@ -11,7 +11,7 @@ struct EyeChunk {
 @group(1) @binding(4) var<storage, read> instances: array<Instance>;
 @group(2) @binding(0) var<uniform> light: WedgeLight;
 @group(2) @binding(1) var<storage, read> eye_chunks: array<EyeChunk>;
-@group(2) @binding(2) var<storage, read_write> eye_count: atomic<u32>;
+@group(2) @binding(2) var<storage, read_write> eye_count: array<atomic<u32>, 2>;
 
 fn corner(caster: u32, triangle: u32, k: u32) -> vec3f {
     let index = casters[caster].first_index + 3u * triangle + k;
@@ -23,7 +23,7 @@ fn corner(caster: u32, triangle: u32, k: u32) -> vec3f {
 @compute @workgroup_size(64)
 fn count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) place: u32) {
     let number_of_chunk = group.x + group.y * groups.x;
-    if number_of_chunk >= arrayLength(&eye_chunks) {
+    if number_of_chunk >= light.eye_chunks {
         return;
     }
     let chunk = eye_chunks[number_of_chunk];
@@ -46,6 +46,14 @@ fn count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     // The eye is at the origin: the segment meets the plane at this share of the way to the light.
     let t = volume / sum;
     if is_crossed && t > 0.0 && (t < 1.0 || light.center.w == 0.0) {
-        atomicAdd(&eye_count, 1u);
+        // On the side of bodies that it belongs to, see `Wedge`.
+        let both = (casters[chunk.caster].flags & BODY) == 0u;
+        let faces_light = facing(planes[number], casters[chunk.caster].light) > 0;
+        if both || faces_light {
+            atomicAdd(&eye_count[0], 1u);
+        }
+        if both || !faces_light {
+            atomicAdd(&eye_count[1], 1u);
+        }
     }
 }

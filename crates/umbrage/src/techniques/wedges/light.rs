@@ -19,7 +19,7 @@ shader_struct! {
         face: u32,
         parallel: u32,
         rounding: f32,
-        pad: u32,
+        eye_chunks: u32,
     }
 }
 
@@ -146,8 +146,9 @@ impl Form {
         hull
     }
 
-    /// For the shaders; `rounding`: the share of coordinates that single precision is off by.
-    pub fn uniform(&self, view: &View<'_>, rounding: f64) -> WedgeLight {
+    /// For the shaders; `rounding`: the share of coordinates that single precision is off by; `eye_chunks`: see
+    /// `eye.wgsl`.
+    pub fn uniform(&self, view: &View<'_>, rounding: f64, eye_chunks: u32) -> WedgeLight {
         let eye = view.camera.eye;
         let center = (self.center.truncate() - eye * self.center.w).extend(self.center.w);
         let rows = |m: DMat3| [0, 1, 2].map(|i| m.row(i).extend(0.0).as_vec4().to_array());
@@ -167,7 +168,7 @@ impl Form {
             face: self.face as u32,
             parallel: u32::from(self.center.w == 0.0),
             rounding: rounding as f32,
-            ..WedgeLight::default()
+            eye_chunks,
         }
     }
 }

@@ -20,7 +20,8 @@ struct WedgeLight {
     parallel: u32,
     // A share of coordinates by which rounding moves things.
     rounding: f32,
-    pad: u32,
+    // Chunks of triangles that may be between eye and light.
+    eye_chunks: u32,
 }
 
 // The face is perpendicular to the way to the light, and light space makes the light a ball of radius 1.

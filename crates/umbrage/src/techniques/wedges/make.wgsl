@@ -25,7 +25,7 @@ fn place(caster: u32, vertex: u32) -> vec3f {
 
 fn no_wedge() -> Wedge {
     var wedge: Wedge;
-    wedge.weight = 0.0;
+    wedge.weights = vec2f(0.0);
     for (var i = 0u; i < 6u; i++) {
         wedge.corners[i] = vec4f(2.0, 2.0, 0.0, 1.0);
     }
@@ -137,6 +137,25 @@ fn corner_of(p: vec3f, inwards: vec3f) -> vec4f {
     return light.clip_from_eye * vec4f(light_inverse(light, out) + light.center.xyz * light.center.w, 1.0);
 }
 
+// Of the sum of both sides of a body, which the list goes by, each one's part.
+fn weights_of(caster: u32, edge: Edge, entry: u32) -> vec2f {
+    let times = select(1.0, 2.0, (entry & 2u) != 0u);
+    if (casters[caster].flags & BODY) == 0u {
+        return vec2f(times);
+    }
+    let other = edge.second & ~SAME_DIRECTION;
+    var sides = one_side(caster, edge.first);
+    if other != NO_TRIANGLE {
+        let two = one_side(caster, other);
+        sides += select(-two, two, (edge.second & SAME_DIRECTION) != 0u);
+    }
+    return select(sides, -sides, (entry & 1u) != 0u);
+}
+
+fn one_side(caster: u32, triangle: u32) -> vec2f {
+    return select(vec2f(0.0, -1.0), vec2f(1.0, 0.0), facing(planes[triangle], casters[caster].light) > 0);
+}
+
 @compute @workgroup_size(64)
 fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) place_in: u32) {
     let number = (group.x + group.y * groups.x) * GROUP + place_in;
@@ -163,7 +182,7 @@ fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     var wedge: Wedge;
     wedge.start = select(one, other, is_turned);
     wedge.end = select(other, one, is_turned);
-    wedge.weight = select(1.0, 2.0, (entry & 2u) != 0u);
+    wedge.weights = weights_of(caster, edge, entry);
     let l = light.center;
     let way = wedge.end - wedge.start;
     // Both are the same plane; the light's place may be far away.

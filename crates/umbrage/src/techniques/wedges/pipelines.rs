@@ -55,7 +55,7 @@ impl Pipelines {
         let blends = gpu.has(wgpu::Features::FLOAT32_BLENDABLE);
         let count = compute_pipeline(gpu, &EYE_SHADER.module(gpu), "count", [silhouettes, &count_layout], &[]);
         Self {
-            format: if blends { wgpu::TextureFormat::R32Float } else { wgpu::TextureFormat::R16Float },
+            format: if blends { wgpu::TextureFormat::Rg32Float } else { wgpu::TextureFormat::Rg16Float },
             clamps: gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL),
             count,
             make: Vec::new(),

@@ -2,14 +2,17 @@
 
 struct Wedge {
     start: vec3f,
-    // How often it counts.
-    weight: f32,
-    end: vec3f,
     // 1 where the eye is on the side of the edge's hard shadow, else 0.
     eye_inside: f32,
+    end: vec3f,
+    pad_a: f32,
     // Of the plane through edge and light, towards the side of the shadow.
     normal: vec3f,
-    pad: f32,
+    pad_b: f32,
+    // How often it counts: among the sides of bodies that face the light and among those that face away. Sheets and closed
+    // bodies count on both.
+    weights: vec2f,
+    pad_c: vec2f,
     // Inside is n · p ≥ w.
     planes: array<vec4f, 4>,
     // Corners in clip space: the near ones, then for each of them those of the front and the back face.

@@ -4,7 +4,7 @@
 @group(1) @binding(1) var<uniform> eye: Eye;
 @group(1) @binding(2) var covered: texture_2d<f32>;
 // How many shadows the eye is in.
-@group(1) @binding(3) var<storage, read> eye_count: u32;
+@group(1) @binding(3) var<storage, read> eye_count: vec2u;
 
 // The share of the light that is below the surface's own plane, as the edge of an endless half plane covers it.
 fn below_horizon(p: vec3f, normal: vec3f) -> f32 {
@@ -30,7 +30,9 @@ fn resolve(@builtin(position) at: vec4f) -> @location(0) f32 {
     if depth == eye.background_depth {
         return 1.0;
     }
-    var share = f32(eye_count) + textureLoad(covered, vec2i(at.xy), 0).x;
+    // Both sides of a body cover the same, but for holes.
+    let sides = vec2f(eye_count) + textureLoad(covered, vec2i(at.xy), 0).xy;
+    var share = max(sides.x, sides.y);
     let surface = surface(eye, at.xy, depth);
     if surface.casts && share < 1.0 && SOFT {
         share = max(share, below_horizon(position_eye(eye, at.xy, depth), surface.normal));

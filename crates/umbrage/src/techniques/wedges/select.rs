@@ -4,13 +4,14 @@ use super::light::Form;
 use crate::casters::{self, Casters, Edges};
 use crate::silhouettes::Throw;
 use crate::{error::Error, gpu::Gpu, view::View};
+use umbrage_core::adjacency::Adjacency;
 use umbrage_core::glam::DVec4;
 use umbrage_core::shadow_hull::{segment_touches, soft_shadow_hull};
 use umbrage_core::silhouette::Rule;
 
-/// A mesh with no more open edges than this is a body with holes, and throws the shadow of its far side as a closed one does: both
-/// sides would cover the light twice.
-const MOST_OPEN: f64 = 0.03;
+/// A mesh with no more open edges than this, and no flatter, is a body with holes and not a sheet.
+const MOST_OPEN: f64 = 0.05;
+const MOST_FLAT: f64 = 0.1;
 
 /// Triangles that are searched together, see `eye.wgsl`.
 const CHUNK: u32 = 64;
@@ -50,7 +51,7 @@ impl Selection {
             }
             let mesh = edges.of_mesh(placed.mesh);
             if !mesh.adjacency.edges.is_empty() {
-                self.throws.push(throw(place, mesh.adjacency.open_share));
+                self.throws.push(throw(place, &mesh.adjacency));
             }
         }
         self.search_eye(casters, edges, view, form.center, rounding);
@@ -69,10 +70,13 @@ impl Selection {
     }
 }
 
-fn throw(place: u32, open_share: f64) -> Throw {
+/// A closed body throws the shadow of its far side: both sides would cover the light twice. Of one with holes both count apart. Every
+/// other mesh is a sheet, which covers the light once wherever it is.
+fn throw(place: u32, mesh: &Adjacency) -> Throw {
     Throw {
         place,
-        rule: if open_share <= MOST_OPEN { Rule::Away } else { Rule::All },
+        rule: if mesh.is_closed { Rule::Away } else { Rule::All },
+        is_body: !mesh.is_closed && mesh.open_share <= MOST_OPEN && mesh.flatness <= MOST_FLAT,
         z_fail: false,
         light_cap: false,
         dark_cap: false,

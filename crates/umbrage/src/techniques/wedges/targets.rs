@@ -7,7 +7,7 @@ use crate::fullscreen::{bind, target_texture};
 use crate::{error::Error, gpu::Gpu, receivers::Receivers};
 
 /// Bytes of a record, see `record.wgsl`.
-const RECORD: u64 = 208;
+const RECORD: u64 = 224;
 
 /// Wedges that an instance draws, see `draw.wgsl`.
 pub(super) const GROUP: u32 = 64;
@@ -48,7 +48,7 @@ impl Buffers {
         let wedges = buffer("wedges", (size + size / 2).clamp(RECORD * 64, limit).next_multiple_of(16), Usage::STORAGE);
         let bodies = buffer("draw of wedges", 20, Usage::STORAGE | Usage::INDIRECT);
         let eye_chunks = buffer("chunks before the eye", u64::from(eye_chunks.next_power_of_two()).max(32) * 8, Usage::STORAGE);
-        let eye_count = buffer("shadows of the eye", 4, Usage::STORAGE);
+        let eye_count = buffer("shadows of the eye", 8, Usage::STORAGE);
         let all = |buffers: &[&wgpu::Buffer], layout| {
             let entries: Vec<_> = buffers.iter().map(|b| b.as_entire_binding()).collect();
             bind(gpu, "wedges", layout, &entries)

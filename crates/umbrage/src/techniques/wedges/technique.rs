@@ -84,10 +84,10 @@ impl Wedges {
 
     fn build(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges, form: &Form) {
         let Some(buffers) = &self.buffers else { return };
-        passes.upload(&buffers.light, bytemuck::bytes_of(&form.uniform(view, ROUNDING)));
+        passes.upload(&buffers.light, bytemuck::bytes_of(&form.uniform(view, ROUNDING, self.selection.eye_chunks.len() as u32)));
         passes.upload(&buffers.eye, bytemuck::bytes_of(&Eye::new(view)));
         passes.upload(&buffers.eye_chunks, bytemuck::cast_slice(&self.selection.eye_chunks));
-        passes.upload(&buffers.eye_count, &[0; 4]);
+        passes.upload(&buffers.eye_count, &[0; 8]);
         passes.upload(&buffers.bodies, &[0; 20]);
         self.silhouettes.record(passes, edges);
         let Some(found) = self.silhouettes.found_by_gpu() else { return };
