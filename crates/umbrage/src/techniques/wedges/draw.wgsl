@@ -44,8 +44,8 @@ fn side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32)
     out.start = wedges[number].start;
     out.normal = wedges[number].normal;
     let p = select(wedges[number].end, out.start, corner == 1u || corner == 2u);
-    let away = vec4f(p * light.center.w - light.center.xyz, 0.0);
-    let at = light.clip_from_eye * select(vec4f(p, 1.0), away, corner >= 2u);
+    let away = p * light.center.w - light.center.xyz;
+    let at = light.clip_from_eye * select(vec4f(p, 1.0), run(p, away, wedges[number].dark), corner >= 2u);
     out.position = vec4f(at.xy, 0.5 * at.w, at.w);
     return out;
 }

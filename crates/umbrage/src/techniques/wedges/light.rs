@@ -2,8 +2,8 @@
 
 use crate::shader::shader_struct;
 use crate::view::View;
-use umbrage_core::LightShape;
 use umbrage_core::glam::{DMat3, DVec3, DVec4};
+use umbrage_core::{Bounds, Frustum, LightShape};
 
 shader_struct! {
     /// See `light.wgsl`.
@@ -14,6 +14,8 @@ shader_struct! {
         inverse: [[f32; 4]; 3],
         corners: [[f32; 4]; 4],
         axes: [[f32; 4]; 3],
+        low: [f32; 4],
+        high: [f32; 4],
         eye_from_origin: [f32; 3],
         radius: f32,
         face: u32,
@@ -152,6 +154,9 @@ impl Form {
         let eye = view.camera.eye;
         let center = (self.center.truncate() - eye * self.center.w).extend(self.center.w);
         let rows = |m: DMat3| [0, 1, 2].map(|i| m.row(i).extend(0.0).as_vec4().to_array());
+        let seen = seen(view);
+        let seen = seen.grown(4.0 * rounding * seen.largest_coordinate());
+        let corner = |p: DVec3| (p - eye).extend(0.0).as_vec4().to_array();
         let width = self.axes[1].length();
         let mut axes = self.axes.map(|a| a.extend(0.0).as_vec4().to_array());
         // The cross product of a normal with the long axis' row, taken to this axis' row.
@@ -163,6 +168,8 @@ impl Form {
             inverse: rows(self.linear.inverse()),
             corners: self.corners.map(|c| c.extend(0.0).as_vec4().to_array()),
             axes,
+            low: corner(seen.min),
+            high: corner(seen.max),
             eye_from_origin: (view.casters.origin() - eye).as_vec3().to_array(),
             radius: self.radius as f32,
             face: self.face as u32,
@@ -171,4 +178,11 @@ impl Form {
             eye_chunks,
         }
     }
+}
+
+/// A box around what the camera sees of the receivers.
+fn seen(view: &View<'_>) -> Bounds {
+    let mut corners = Vec::with_capacity(32);
+    Frustum::of(&view.camera.clip_from_world()).clip_box(&view.casters.receivers_bounds(), &mut corners);
+    Bounds::of(corners)
 }

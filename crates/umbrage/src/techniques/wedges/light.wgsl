@@ -11,6 +11,9 @@ struct WedgeLight {
     corners: array<vec4f, 4>,
     // Axes of a flat light: two in its plane over half its size, and its normal.
     axes: array<vec4f, 3>,
+    // A box around all that is seen of receivers, relative to the eye.
+    low: vec4f,
+    high: vec4f,
     // What makes eye-relative coordinates of those of instances.
     eye_from_origin: vec3f,
     // Around the corners.

@@ -124,17 +124,49 @@ fn body(a: vec3f, b: vec3f, wedge: ptr<function, Wedge>) -> bool {
         let n = transposed(light, normals[i]);
         let least = min(dot(normals[i], a), dot(normals[i], b)) + dot(n, light.center.xyz * light.center.w);
         (*wedge).planes[i] = vec4f(n, least - SLACK * 0.01 * abs(least));
-        (*wedge).corners[i + 2u] = light.clip_from_eye * vec4f(light_inverse(light, rays[i]), 0.0);
     }
-    (*wedge).corners[0] = corner_of(near_low, low + front + back);
-    (*wedge).corners[1] = corner_of(near_high, high + front + back);
+    let starts = array<vec3f, 2>(corner_of(near_low, low + front + back), corner_of(near_high, high + front + back));
+    var ways = rays;
+    for (var i = 0u; i < 4u; i++) {
+        ways[i] = light_inverse(light, rays[i]);
+    }
+    let end = end_of(starts, ways, light.low.xyz, light.high.xyz);
+    for (var i = 0u; i < 4u; i++) {
+        (*wedge).corners[i + 2u] = light.clip_from_eye * run(starts[i / 2u], ways[i], end);
+    }
+    (*wedge).corners[0] = light.clip_from_eye * vec4f(starts[0], 1.0);
+    (*wedge).corners[1] = light.clip_from_eye * vec4f(starts[1], 1.0);
     return true;
 }
 
-// A corner from light space to the screen, moved out by what rounding may move it.
-fn corner_of(p: vec3f, inwards: vec3f) -> vec4f {
+// The side of a box where all rays, two from each start, leave it soonest, as n · p = w. Zero where they do not leave it through one side.
+fn end_of(starts: array<vec3f, 2>, ways: array<vec3f, 4>, low: vec3f, high: vec3f) -> vec4f {
+    var best = 1e30;
+    var end = vec4f(0.0);
+    for (var k = 0u; k < 6u; k++) {
+        let axis = k / 2u;
+        let sign = select(-1.0, 1.0, k % 2u == 1u);
+        let bound = select(-low[axis], high[axis], k % 2u == 1u);
+        var last = 0.0;
+        for (var i = 0u; i < 4u; i++) {
+            let speed = sign * ways[i][axis];
+            // Not so steep that rounding moves where a ray meets the side.
+            let is_steep = speed < 1e-3 * length(ways[i]);
+            last = max(last, select((bound - sign * starts[i / 2u][axis]) / speed, 1e30, is_steep));
+        }
+        if last < best {
+            best = last;
+            end = vec4f(0.0, 0.0, 0.0, bound);
+            end[axis] = sign;
+        }
+    }
+    return end;
+}
+
+// A corner from light space to the eye's, moved out by what rounding may move it.
+fn corner_of(p: vec3f, inwards: vec3f) -> vec3f {
     let out = p - inwards * (light.rounding * (length(p) + 1.0));
-    return light.clip_from_eye * vec4f(light_inverse(light, out) + light.center.xyz * light.center.w, 1.0);
+    return light_inverse(light, out) + light.center.xyz * light.center.w;
 }
 
 // Of the sum of both sides of a body, which the list goes by, each one's part.
@@ -189,6 +221,11 @@ fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let to_light = l.xyz - wedge.start * l.w;
     wedge.normal = normalize(cross(to_light, way));
     wedge.eye_inside = f32(dot(wedge.normal, -wedge.start) >= 0.0);
+    // Segments from the eye to what is seen stay in this box.
+    let away = array<vec3f, 2>(wedge.start * l.w - l.xyz, wedge.end * l.w - l.xyz);
+    let starts = array<vec3f, 2>(wedge.start, wedge.end);
+    let ways = array<vec3f, 4>(away[0], away[0], away[1], away[1]);
+    wedge.dark = end_of(starts, ways, min(light.low.xyz, vec3f(0.0)), max(light.high.xyz, vec3f(0.0)));
     let a = light_linear(light, wedge.start - l.xyz * l.w);
     let b = light_linear(light, wedge.end - l.xyz * l.w);
     if any(wedge.normal != wedge.normal) {

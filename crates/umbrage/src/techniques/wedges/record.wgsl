@@ -13,8 +13,19 @@ struct Wedge {
     // bodies count on both.
     weights: vec2f,
     pad_c: vec2f,
+    // Where the hard shadow may end since nothing that is seen lies beyond, n · p = w; n = 0: nowhere.
+    dark: vec4f,
     // Inside is n · p ≥ w.
     planes: array<vec4f, 4>,
     // Corners in clip space: the near ones, then for each of them those of the front and the back face.
     corners: array<vec4f, 6>,
+}
+
+// Where a ray ends, homogeneous: at a plane or infinitely far away.
+fn run(start: vec3f, way: vec3f, end: vec4f) -> vec4f {
+    let speed = dot(end.xyz, way);
+    if speed <= 0.0 {
+        return vec4f(way, 0.0);
+    }
+    return vec4f(start + way * max((end.w - dot(end.xyz, start)) / speed, 0.0), 1.0);
 }
