@@ -9,24 +9,24 @@ const GROUP: u32 = 64u;
 // Off the screen, so that the triangle is dropped.
 const NOWHERE: vec4f = vec4f(2.0, 2.0, 0.0, 1.0);
 
+// In light space.
 fn receiver(pixel: vec2f, depth: f32) -> vec3f {
-    return position_eye(eye, pixel, depth);
+    return to_light(light, position_eye(eye, pixel, depth));
 }
 
 // Whether a point is on the shadow's side of the plane through light and edge. Hard shadow and wedge both go by this, so that they agree
 // to the last bit; what rounding can't tell is where the eye is.
-fn is_inside(p: vec3f, start: vec3f, normal: vec3f, eye_inside: f32) -> bool {
-    let height = dot(normal, p - start);
+fn is_inside(p: vec3f, plane: vec4f, eye_inside: f32) -> bool {
+    let height = dot(plane.xyz, p) - plane.w;
     let least = light.rounding * (abs(p.x) + abs(p.y) + abs(p.z));
     return select(height >= 0.0, eye_inside != 0.0, abs(height) < least);
 }
 
 struct Side {
     @builtin(position) position: vec4f,
-    @location(0) @interpolate(flat) start: vec3f,
-    @location(1) @interpolate(flat) normal: vec3f,
+    @location(0) @interpolate(flat) plane: vec4f,
     // Weights, and whether the eye is on the side of the shadow.
-    @location(2) @interpolate(flat) counts: vec3f,
+    @location(1) @interpolate(flat) counts: vec3f,
 }
 
 // Corner 0…3 of a quad: end, start, start's shadow, end's shadow. It has no depth: whether it is in front of what is seen the
@@ -41,10 +41,10 @@ fn side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32)
     if all(out.counts.xy == vec2f(0.0)) {
         return out;
     }
-    out.start = wedges[number].start;
-    out.normal = wedges[number].normal;
-    let p = select(wedges[number].end, out.start, corner == 1u || corner == 2u);
-    let away = p * light.center.w - light.center.xyz;
+    out.plane = wedges[number].plane;
+    let is_start = corner == 1u || corner == 2u;
+    let p = select(wedges[number].eye_end, wedges[number].eye_start, is_start);
+    let away = from_light(light, -way_to_light(light, select(wedges[number].end, wedges[number].start, is_start)));
     let at = light.clip_from_eye * select(vec4f(p, 1.0), run(p, away, wedges[number].dark), corner >= 2u);
     out.position = vec4f(at.xy, 0.5 * at.w, at.w);
     return out;
@@ -56,7 +56,7 @@ fn add_side(in: Side) -> @location(0) vec2f {
     if depth == eye.background_depth {
         discard;
     }
-    let inside = is_inside(receiver(in.position.xy, depth), in.start, in.normal, in.counts.z);
+    let inside = is_inside(receiver(in.position.xy, depth), in.plane, in.counts.z);
     return in.counts.xy * (f32(inside) - in.counts.z);
 }
 
@@ -65,13 +65,16 @@ struct Body {
     // With a weight each.
     @location(0) @interpolate(flat) start: vec4f,
     @location(1) @interpolate(flat) end: vec4f,
-    // And whether the eye is on the side of the shadow.
-    @location(2) @interpolate(flat) normal: vec4f,
+    @location(2) @interpolate(flat) plane: vec4f,
     @location(3) @interpolate(flat) front: vec4f,
     @location(4) @interpolate(flat) back: vec4f,
     @location(5) @interpolate(flat) low: vec4f,
     @location(6) @interpolate(flat) high: vec4f,
+    @location(7) @interpolate(flat) eye_inside: f32,
 }
+
+// Depth is clamped at the far plane, not clipped.
+override CLAMPS: bool = true;
 
 // Of the faces of wedges those are drawn that face away, which the eye sees each once wherever it is.
 @vertex
@@ -84,27 +87,18 @@ fn body(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32)
     }
     out.start = vec4f(wedges[number].start, wedges[number].weights.x);
     out.end = vec4f(wedges[number].end, wedges[number].weights.y);
-    out.normal = vec4f(wedges[number].normal, wedges[number].eye_inside);
+    out.plane = wedges[number].plane;
     out.front = wedges[number].planes[0];
     out.back = wedges[number].planes[1];
     out.low = wedges[number].planes[2];
     out.high = wedges[number].planes[3];
+    out.eye_inside = wedges[number].eye_inside;
     return out;
 }
-
-// Depth is clamped at the far plane, not clipped.
-override CLAMPS: bool = true;
 
 fn is_in_body(in: Body, p: vec3f) -> bool {
     let depths = vec4f(dot(in.front.xyz, p), dot(in.back.xyz, p), dot(in.low.xyz, p), dot(in.high.xyz, p));
     return all(depths >= vec4f(in.front.w, in.back.w, in.low.w, in.high.w));
-}
-
-fn chord_seen(in: Body, p: vec3f, seen: Seen) -> Chord {
-    let inside = is_inside(p, in.start.xyz, in.normal.xyz, in.normal.w);
-    let a = on_face(seen, in.start.xyz - p);
-    let b = on_face(seen, in.end.xyz - p);
-    return chord(light.face >= RECT, a, b, inside == (seen.hand > 0.0), light.parallel == 0u);
 }
 
 @fragment
@@ -117,10 +111,6 @@ fn add_wedge(in: Body) -> @location(0) vec2f {
     if !is_in_body(in, p) {
         discard;
     }
-    let seen = light_from(light, p);
-    let c = chord_seen(in, p, seen);
-    if c.side == 0.0 {
-        discard;
-    }
-    return term(c) * seen.hand * vec2f(in.start.w, in.end.w);
+    let inside = is_inside(p, in.plane, in.eye_inside);
+    return share_of_edge(light, p, in.start.xyz, in.end.xyz, inside) * vec2f(in.start.w, in.end.w);
 }

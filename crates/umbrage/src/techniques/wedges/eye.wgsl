@@ -38,14 +38,14 @@ fn count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     let a = corner(chunk.caster, triangle, 0u);
     let b = corner(chunk.caster, triangle, 1u);
     let c = corner(chunk.caster, triangle, 2u);
-    let l = light.center.xyz;
+    let l = light.center + from_light(light, way_to_light(light, vec3f(0.0)));
     let sides = vec3f(dot(cross(a, b), l), dot(cross(b, c), l), dot(cross(c, a), l));
     let volume = dot(cross(a, b), c);
     let sum = sides.x + sides.y + sides.z;
     let is_crossed = all(sides >= vec3f(0.0)) || all(sides < vec3f(0.0));
     // The eye is at the origin: the segment meets the plane at this share of the way to the light.
     let t = volume / sum;
-    if is_crossed && t > 0.0 && (t < 1.0 || light.center.w == 0.0) {
+    if is_crossed && t > 0.0 && (t < 1.0 || light.parallel != 0u) {
         // On the side of bodies that it belongs to, see `Wedge`.
         let both = (casters[chunk.caster].flags & BODY) == 0u;
         let faces_light = facing(planes[number], casters[chunk.caster].light) > 0;

@@ -1,45 +1,52 @@
-// A light as a face that points see: a disc, or a square between −1 and 1.
+// A light in a space of its own: its centre is the origin and it is a ball of radius 1; or a disc of radius 1, or a square from −1 to
+// 1, in the plane z = 0; or a line from −1 to 1 along x. Light from infinitely far away comes from the directions (x, y, 1) of a
+// disc of radius 1.
 
 struct WedgeLight {
     clip_from_eye: mat4x4f,
-    // Of the centre, relative to the eye; w = 0: the direction to it.
-    center: vec4f,
-    // Where wedges are built: light space is linear_row · (p − centre), and p there is relative to the eye with w = 0.
-    linear: array<vec4f, 3>,
-    inverse: array<vec4f, 3>,
-    // The light's hull in that space: points, or directions to the light.
+    // Rows of the way to and fro: light space is rows · (p − centre) for p relative to the eye.
+    to_light: array<vec4f, 3>,
+    from_light: array<vec4f, 3>,
+    // Corners of the light's hull, or directions.
     corners: array<vec4f, 4>,
-    // Axes of a flat light: two in its plane over half its size, and its normal.
-    axes: array<vec4f, 3>,
     // A box around all that is seen of receivers, relative to the eye.
     low: vec4f,
     high: vec4f,
-    // What makes eye-relative coordinates of those of instances.
-    eye_from_origin: vec3f,
+    // Relative to the eye; 0 for light from infinitely far away.
+    center: vec3f,
     // Around the corners.
     radius: f32,
+    // What makes eye-relative coordinates of those of instances.
+    eye_from_origin: vec3f,
     face: u32,
-    // Depths are behind the light beyond 1 where it is at a place.
     parallel: u32,
     // A share of coordinates by which rounding moves things.
     rounding: f32,
     // Chunks of triangles that may be between eye and light.
     eye_chunks: u32,
+    pad: u32,
 }
 
-// The face is perpendicular to the way to the light, and light space makes the light a ball of radius 1.
 const BALL: u32 = 0u;
-// Axes of the face are fixed.
 const DISC: u32 = 1u;
-const RECT: u32 = 2u;
-// A square about one axis that is next to nothing wide.
+const SQUARE: u32 = 2u;
 const LINE: u32 = 3u;
 const PICTURE: u32 = 4u;
 
-fn light_linear(light: WedgeLight, d: vec3f) -> vec3f {
-    return vec3f(dot(light.linear[0].xyz, d), dot(light.linear[1].xyz, d), dot(light.linear[2].xyz, d));
+// How wide a line is taken to be.
+const LINE_WIDTH: f32 = 1e-3;
+
+fn to_light(light: WedgeLight, p: vec3f) -> vec3f {
+    let d = p - light.center;
+    return vec3f(dot(light.to_light[0].xyz, d), dot(light.to_light[1].xyz, d), dot(light.to_light[2].xyz, d));
 }
 
-fn light_inverse(light: WedgeLight, d: vec3f) -> vec3f {
-    return vec3f(dot(light.inverse[0].xyz, d), dot(light.inverse[1].xyz, d), dot(light.inverse[2].xyz, d));
+// Of a direction.
+fn from_light(light: WedgeLight, d: vec3f) -> vec3f {
+    return vec3f(dot(light.from_light[0].xyz, d), dot(light.from_light[1].xyz, d), dot(light.from_light[2].xyz, d));
+}
+
+// The way from a point to the light.
+fn way_to_light(light: WedgeLight, p: vec3f) -> vec3f {
+    return select(-p, vec3f(0.0, 0.0, 1.0), light.parallel != 0u);
 }

@@ -71,8 +71,8 @@ fn ray(end: vec3f, side: vec3f, sum: vec3f) -> vec3f {
 
 // In light space; false where no such body holds the wedge.
 fn body(a: vec3f, b: vec3f, wedge: ptr<function, Wedge>) -> bool {
-    let away_a = select(normalize(a), -light.corners[0].xyz, light.parallel != 0u);
-    let away_b = select(normalize(b), -light.corners[0].xyz, light.parallel != 0u);
+    let away_a = -way_to_light(light, normalize(a));
+    let away_b = -way_to_light(light, normalize(b));
     var main = away_a + away_b;
     let edge_length = length(b - a);
     if !(length(main) > 1e-3) || !(edge_length > 0.0) {
@@ -82,7 +82,7 @@ fn body(a: vec3f, b: vec3f, wedge: ptr<function, Wedge>) -> bool {
     let edge = (b - a) / edge_length;
     var aside = cross(edge, main);
     if dot(aside, aside) < 1e-10 {
-        aside = across(main)[0];
+        aside = select(cross(main, vec3f(1.0, 0.0, 0.0)), cross(main, vec3f(0.0, 1.0, 0.0)), abs(main.x) > 0.7);
     }
     aside = normalize(aside);
     let along = cross(main, aside);
@@ -121,14 +121,13 @@ fn body(a: vec3f, b: vec3f, wedge: ptr<function, Wedge>) -> bool {
         }
     }
     for (var i = 0u; i < 4u; i++) {
-        let n = transposed(light, normals[i]);
-        let least = min(dot(normals[i], a), dot(normals[i], b)) + dot(n, light.center.xyz * light.center.w);
-        (*wedge).planes[i] = vec4f(n, least - SLACK * 0.01 * abs(least));
+        let least = min(dot(normals[i], a), dot(normals[i], b));
+        (*wedge).planes[i] = vec4f(normals[i], least - SLACK * 0.01 * abs(least));
     }
     let starts = array<vec3f, 2>(corner_of(near_low, low + front + back), corner_of(near_high, high + front + back));
     var ways = rays;
     for (var i = 0u; i < 4u; i++) {
-        ways[i] = light_inverse(light, rays[i]);
+        ways[i] = from_light(light, rays[i]);
     }
     let end = end_of(starts, ways, light.low.xyz, light.high.xyz);
     for (var i = 0u; i < 4u; i++) {
@@ -166,7 +165,7 @@ fn end_of(starts: array<vec3f, 2>, ways: array<vec3f, 4>, low: vec3f, high: vec3
 // A corner from light space to the eye's, moved out by what rounding may move it.
 fn corner_of(p: vec3f, inwards: vec3f) -> vec3f {
     let out = p - inwards * (light.rounding * (length(p) + 1.0));
-    return light_inverse(light, out) + light.center.xyz * light.center.w;
+    return from_light(light, out) + light.center;
 }
 
 // Of the sum of both sides of a body, which the list goes by, each one's part.
@@ -212,26 +211,24 @@ fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let one = place(caster, edge.start);
     let other = place(caster, edge.end);
     var wedge: Wedge;
-    wedge.start = select(one, other, is_turned);
-    wedge.end = select(other, one, is_turned);
+    wedge.eye_start = select(one, other, is_turned);
+    wedge.eye_end = select(other, one, is_turned);
     wedge.weights = weights_of(caster, edge, entry);
-    let l = light.center;
-    let way = wedge.end - wedge.start;
-    // Both are the same plane; the light's place may be far away.
-    let to_light = l.xyz - wedge.start * l.w;
-    wedge.normal = normalize(cross(to_light, way));
-    wedge.eye_inside = f32(dot(wedge.normal, -wedge.start) >= 0.0);
-    // Segments from the eye to what is seen stay in this box.
-    let away = array<vec3f, 2>(wedge.start * l.w - l.xyz, wedge.end * l.w - l.xyz);
-    let starts = array<vec3f, 2>(wedge.start, wedge.end);
-    let ways = array<vec3f, 4>(away[0], away[0], away[1], away[1]);
-    wedge.dark = end_of(starts, ways, min(light.low.xyz, vec3f(0.0)), max(light.high.xyz, vec3f(0.0)));
-    let a = light_linear(light, wedge.start - l.xyz * l.w);
-    let b = light_linear(light, wedge.end - l.xyz * l.w);
-    if any(wedge.normal != wedge.normal) {
-        // An edge in line with the light, or without length.
-        wedge.normal = vec3f(0.0);
+    let a = to_light(light, wedge.eye_start);
+    let b = to_light(light, wedge.eye_end);
+    wedge.start = a;
+    wedge.end = b;
+    let normal = normalize(cross(way_to_light(light, a), b - a));
+    // An edge in line with the light, or without length, has no side.
+    if all(normal == normal) {
+        wedge.plane = vec4f(normal, select(0.0, dot(normal, a), light.parallel != 0u));
     }
+    wedge.eye_inside = f32(dot(wedge.plane.xyz, to_light(light, vec3f(0.0))) >= wedge.plane.w);
+    // Segments from the eye to what is seen stay in this box.
+    let ends = array<vec3f, 2>(wedge.eye_start, wedge.eye_end);
+    let away = array<vec3f, 2>(from_light(light, -way_to_light(light, a)), from_light(light, -way_to_light(light, b)));
+    let ways = array<vec3f, 4>(away[0], away[0], away[1], away[1]);
+    wedge.dark = end_of(ends, ways, min(light.low.xyz, vec3f(0.0)), max(light.high.xyz, vec3f(0.0)));
     if !body(a, b, &wedge) {
         everywhere(&wedge);
     }

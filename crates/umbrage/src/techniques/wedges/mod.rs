@@ -17,7 +17,7 @@ use crate::technique::TechniqueInfo;
 use light::WedgeLight;
 use umbrage_core::LightKinds;
 
-const LIGHT: &str = concat!(include_str!("light.wgsl"), include_str!("seen.wgsl"));
+const LIGHT: &str = include_str!("light.wgsl");
 const COVERAGE: &str = include_str!("coverage.wgsl");
 const RECORD: &str = include_str!("record.wgsl");
 
@@ -52,9 +52,7 @@ const RESOLVE_SHADER: Shader = Shader {
         FULLSCREEN,
         RECEIVERS,
         LIGHT,
-        COVERAGE,
         include_str!("resolve.wgsl"),
-        include_str!("term_analytic.wgsl"),
     ],
     layouts: &[WedgeLight::LAYOUT, Eye::LAYOUT],
 };

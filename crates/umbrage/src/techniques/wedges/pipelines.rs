@@ -1,5 +1,6 @@
 //! Pipelines that build, count and draw wedges.
 
+use super::light::Face;
 use super::{DRAW_SHADER, EYE_SHADER, MAKE_SHADER, RESOLVE_SHADER};
 use crate::casters::Edges;
 use crate::fullscreen::{FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, additive, layout, texture};
@@ -21,7 +22,7 @@ pub(super) struct Pipelines {
     resolve_module: wgpu::ShaderModule,
     silhouettes: wgpu::BindGroupLayout,
     drawing: Vec<(Key, wgpu::RenderPipeline)>,
-    resolving: Vec<((bool, bool), wgpu::RenderPipeline)>,
+    resolving: Vec<(Resolve, wgpu::RenderPipeline)>,
 }
 
 /// What is drawn.
@@ -40,6 +41,15 @@ pub(super) struct Key {
     /// Of the receivers' depth where it can be attached, and whether near is 1 in it.
     pub depth: Option<(wgpu::TextureFormat, bool)>,
     pub has_normals: bool,
+    pub face: Face,
+}
+
+/// A pipeline that turns shares into visibility.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Resolve {
+    pub soft: bool,
+    pub has_normals: bool,
+    pub face: Face,
 }
 
 impl Pipelines {
@@ -98,10 +108,11 @@ impl Pipelines {
     }
 
     /// Makes the pipeline that turns shares into visibility where it is missing.
-    pub fn prepare_resolve(&mut self, gpu: &Gpu, soft: bool, has_normals: bool) {
-        if self.resolving(soft, has_normals).is_none() {
+    pub fn prepare_resolve(&mut self, gpu: &Gpu, key: Resolve) {
+        if self.resolving(key).is_none() {
             let on = |switch: bool| if switch { 1.0 } else { 0.0 };
-            let constants = [("SOFT", on(soft)), ("HAS_NORMALS", on(has_normals))];
+            let face = f64::from(key.face as u32);
+            let constants = [("SOFT", on(key.soft)), ("HAS_NORMALS", on(key.has_normals)), ("FACE", face)];
             let made = Fullscreen {
                 label: "wedge visibility",
                 module: &self.resolve_module,
@@ -110,13 +121,13 @@ impl Pipelines {
                 target: VisibilityTarget::FORMAT.into(),
                 constants: &constants,
             };
-            self.resolving.push(((soft, has_normals), made.pipeline(gpu)));
+            self.resolving.push((key, made.pipeline(gpu)));
         }
     }
 
     /// One that was prepared.
-    pub fn resolving(&self, soft: bool, has_normals: bool) -> Option<&wgpu::RenderPipeline> {
-        self.resolving.iter().find(|(k, _)| *k == (soft, has_normals)).map(|(_, made)| made)
+    pub fn resolving(&self, key: Resolve) -> Option<&wgpu::RenderPipeline> {
+        self.resolving.iter().find(|(k, _)| *k == key).map(|(_, made)| made)
     }
 
     fn draw(&self, gpu: &Gpu, key: Key) -> wgpu::RenderPipeline {
@@ -127,7 +138,7 @@ impl Pipelines {
         });
         let on = |switch: bool| if switch { 1.0 } else { 0.0 };
         let vertex_constants = [("CLAMPS", on(self.clamps))];
-        let fragment_constants = [("HAS_NORMALS", on(key.has_normals))];
+        let fragment_constants = [("FACE", f64::from(key.face as u32))];
         let constants = |constants, uses: bool| wgpu::PipelineCompilationOptions {
             constants: if uses { constants } else { &[] },
             ..Default::default()
@@ -158,7 +169,7 @@ impl Pipelines {
             fragment: Some(wgpu::FragmentState {
                 module: &self.draw_module,
                 entry_point: Some(if bodies { "add_wedge" } else { "add_side" }),
-                compilation_options: constants(&fragment_constants, false),
+                compilation_options: constants(&fragment_constants, bodies),
                 targets: &target,
             }),
             multiview_mask: None,

@@ -1,21 +1,26 @@
-// A silhouette edge and its wedge, relative to the eye.
+// A silhouette edge and its wedge.
 
 struct Wedge {
-    start: vec3f,
+    // Its ends relative to the eye.
+    eye_start: vec3f,
     // 1 where the eye is on the side of the edge's hard shadow, else 0.
     eye_inside: f32,
-    end: vec3f,
+    eye_end: vec3f,
     pad_a: f32,
-    // Of the plane through edge and light, towards the side of the shadow.
-    normal: vec3f,
+    // In light space.
+    start: vec3f,
     pad_b: f32,
+    end: vec3f,
+    pad_c: f32,
+    // The plane n · p = w through edge and light, n towards the side of the shadow, in light space.
+    plane: vec4f,
     // How often it counts: among the sides of bodies that face the light and among those that face away. Sheets and closed
     // bodies count on both.
     weights: vec2f,
-    pad_c: vec2f,
-    // Where the hard shadow may end since nothing that is seen lies beyond, n · p = w; n = 0: nowhere.
+    pad_d: vec2f,
+    // Where the hard shadow may end since nothing that is seen lies beyond, n · p = w relative to the eye; n = 0: nowhere.
     dark: vec4f,
-    // Inside is n · p ≥ w.
+    // Inside is n · p ≥ w, in light space.
     planes: array<vec4f, 4>,
     // Corners in clip space: the near ones, then for each of them those of the front and the back face.
     corners: array<vec4f, 6>,

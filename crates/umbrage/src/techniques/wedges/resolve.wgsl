@@ -3,25 +3,47 @@
 @group(1) @binding(0) var<uniform> light: WedgeLight;
 @group(1) @binding(1) var<uniform> eye: Eye;
 @group(1) @binding(2) var covered: texture_2d<f32>;
-// How many shadows the eye is in.
+// How many shadows the eye is in, see `Wedge::weights`.
 @group(1) @binding(3) var<storage, read> eye_count: vec2u;
 
-// The share of the light that is below the surface's own plane, as the edge of an endless half plane covers it.
+override SOFT: bool = true;
+override FACE: u32 = BALL;
+
+const PI: f32 = 3.14159265358979;
+
+// Of a disc of radius 1 the share beyond a line at this distance from its centre.
+fn beyond_on_disc(distance: f32) -> f32 {
+    let d = clamp(distance, -1.0, 1.0);
+    return (acos(d) - d * sqrt(1.0 - d * d)) / PI;
+}
+
+// Of the square between −1 and 1 the share where x a + y b + c < 0.
+fn beyond_on_square(line: vec3f) -> f32 {
+    let a = max(max(abs(line.x), abs(line.y)), 1e-30);
+    let b = max(min(abs(line.x), abs(line.y)), 1e-4 * a);
+    let c = abs(line.z);
+    let one = max(a + b - c, 0.0);
+    let other = max(a - b - c, 0.0);
+    let share = (one * one - other * other) / (8.0 * a * b);
+    return select(1.0 - share, share, line.z >= 0.0);
+}
+
+// The share of the light that is below the surface's own plane, whose normal is given in light space.
 fn below_horizon(p: vec3f, normal: vec3f) -> f32 {
-    let to_light = select(light.center.xyz - p, light.center.xyz, light.parallel != 0u);
-    let n = normalize(normal);
-    let height = dot(n, to_light);
-    // The horizon where it is nearest to the light.
-    let ahead = to_light - n * height;
-    let aside = cross(n, to_light) * 1e3;
-    let seen = light_from(light, p);
-    let c = chord(light.face >= RECT, on_face(seen, ahead - aside), on_face(seen, ahead + aside), true, false);
-    if c.side == 0.0 {
-        return select(1.0, 0.0, height >= 0.0);
+    let way = way_to_light(light, p);
+    let height = dot(normal, way);
+    if FACE == BALL {
+        // Of the face that is perpendicular to the way.
+        let aside = dot(normal, normal) - height * height / dot(way, way);
+        return beyond_on_disc(height * inverseSqrt(max(aside, 1e-30)));
     }
-    // Of one sign, whichever way the edge runs, since only the centre's side is missing.
-    let share = abs(term(Chord(c.start, c.end, sign(cross2(c.start, c.end)))));
-    return select(1.0 - share, share, height >= 0.0);
+    if FACE == DISC {
+        return beyond_on_disc(height / max(length(normal.xy), 1e-30));
+    }
+    if FACE == LINE {
+        return beyond_on_square(vec3f(normal.x, 0.0, height));
+    }
+    return beyond_on_square(vec3f(normal.xy, height));
 }
 
 @fragment
@@ -33,11 +55,18 @@ fn resolve(@builtin(position) at: vec4f) -> @location(0) f32 {
     // Both sides of a body cover the same, but for holes.
     let sides = vec2f(eye_count) + textureLoad(covered, vec2i(at.xy), 0).xy;
     var share = max(sides.x, sides.y);
-    let surface = surface(eye, at.xy, depth);
-    if surface.casts && share < 1.0 && SOFT {
-        share = max(share, below_horizon(position_eye(eye, at.xy, depth), surface.normal));
+    if SOFT {
+        let surface = surface(eye, at.xy, depth);
+        let n = surface.normal;
+        // A plane's normal goes by the inverse transposed.
+        let back = light.from_light;
+        let normal = vec3f(
+            n.x * back[0].x + n.y * back[1].x + n.z * back[2].x,
+            n.x * back[0].y + n.y * back[1].y + n.z * back[2].y,
+            n.x * back[0].z + n.y * back[1].z + n.z * back[2].z,
+        );
+        let p = to_light(light, position_eye(eye, at.xy, depth));
+        share = max(share, select(0.0, below_horizon(p, normal), surface.casts));
     }
     return 1.0 - clamp(share, 0.0, 1.0);
 }
-
-override SOFT: bool = true;

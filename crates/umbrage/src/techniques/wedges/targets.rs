@@ -7,7 +7,7 @@ use crate::fullscreen::{bind, target_texture};
 use crate::{error::Error, gpu::Gpu, receivers::Receivers};
 
 /// Bytes of a record, see `record.wgsl`.
-const RECORD: u64 = 240;
+const RECORD: u64 = 288;
 
 /// Wedges that an instance draws, see `draw.wgsl`.
 pub(super) const GROUP: u32 = 64;

@@ -1,7 +1,7 @@
 //! A frame: choose casters, find silhouettes, build wedges, add up what they cover, resolve.
 
 use super::light::Form;
-use super::pipelines::{Draw, Key, Pipelines};
+use super::pipelines::{Draw, Key, Pipelines, Resolve};
 use super::select::Selection;
 use super::targets::{Buffers, GROUP, Target, lent_depth};
 use crate::casters::Edges;
@@ -54,9 +54,13 @@ impl Wedges {
         }
     }
 
-    fn key(&self, view: &View<'_>, draw: Draw) -> Key {
+    fn key(view: &View<'_>, form: &Form, draw: Draw) -> Key {
         let depth = lent_depth(view.receivers).map(|d| (d.texture().format(), is_reversed(view)));
-        Key { draw, depth, has_normals: view.receivers.has_normals }
+        Key { draw, depth, has_normals: view.receivers.has_normals, face: form.face }
+    }
+
+    fn resolve_key(view: &View<'_>, form: &Form) -> Resolve {
+        Resolve { soft: !form.is_point(), has_normals: view.receivers.has_normals, face: form.face }
     }
 
     /// Makes room and pipelines.
@@ -76,9 +80,9 @@ impl Wedges {
         }
         self.pipelines.prepare_make(gpu, is_reversed(view));
         for draw in [Draw::Sides, Draw::Bodies] {
-            self.pipelines.prepare(gpu, self.key(view, draw));
+            self.pipelines.prepare(gpu, Self::key(view, form, draw));
         }
-        self.pipelines.prepare_resolve(gpu, !form.is_point(), view.receivers.has_normals);
+        self.pipelines.prepare_resolve(gpu, Self::resolve_key(view, form));
         Ok(())
     }
 
@@ -108,7 +112,7 @@ impl Wedges {
         }
     }
 
-    fn add_up(&self, passes: &mut Passes<'_>, view: &View<'_>, soft: bool) -> u32 {
+    fn add_up(&self, passes: &mut Passes<'_>, view: &View<'_>, form: &Form) -> u32 {
         let (Some(buffers), Some(target)) = (&self.buffers, &self.target) else { return 0 };
         let depth = lent_depth(view.receivers).map(|view| wgpu::RenderPassDepthStencilAttachment {
             view,
@@ -121,14 +125,14 @@ impl Wedges {
         pass.set_bind_group(1, &buffers.draw, &[]);
         let mut draws = 0;
         if let (Some(pipeline), Some((arguments, offset))) =
-            (self.pipelines.drawing(self.key(view, Draw::Sides)), self.silhouettes.arguments(Part::PassSides))
+            (self.pipelines.drawing(Self::key(view, form, Draw::Sides)), self.silhouettes.arguments(Part::PassSides))
         {
             pass.set_pipeline(pipeline);
             pass.set_index_buffer(self.silhouettes.corner_indices().slice(..), wgpu::IndexFormat::Uint16);
             pass.draw_indexed_indirect(arguments, offset);
             draws += 1;
         }
-        if let Some(pipeline) = self.pipelines.drawing(self.key(view, Draw::Bodies)).filter(|_| soft) {
+        if let Some(pipeline) = self.pipelines.drawing(Self::key(view, form, Draw::Bodies)).filter(|_| !form.is_point()) {
             pass.set_pipeline(pipeline);
             pass.set_index_buffer(self.body_indices.slice(..), wgpu::IndexFormat::Uint16);
             pass.draw_indexed_indirect(&buffers.bodies, 0);
@@ -164,11 +168,10 @@ impl Technique for Wedges {
             return Ok(());
         };
         self.build(passes, view, edges, &form);
-        let soft = !form.is_point();
-        self.draws = self.add_up(passes, view, soft);
+        self.draws = self.add_up(passes, view, &form);
         let mut pass = passes.render("visibility", &[visibility.overwrite()], None);
         if let (Some(pipeline), Some(target)) =
-            (self.pipelines.resolving(soft, view.receivers.has_normals), &self.target)
+            (self.pipelines.resolving(Self::resolve_key(view, &form)), &self.target)
         {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &view.receivers.bind_group, &[]);

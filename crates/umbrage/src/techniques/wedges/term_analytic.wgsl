@@ -1,6 +1,7 @@
-fn term(c: Chord) -> f32 {
-    if light.face >= RECT {
-        return on_square(c);
-    }
-    return on_disc(c);
+fn disc_term(c: Across, inside: bool) -> f32 {
+    return disc_analytic(c, inside);
+}
+
+fn square_term(c: Chord, inside: bool) -> f32 {
+    return on_square(c, inside);
 }
