@@ -109,8 +109,11 @@ mod tests {
     }
 
     fn lights() -> impl Strategy<Value = LightHull> {
-        let ball = (point(2.0), 0.001..1.5f64)
-            .prop_map(|(c, radius)| LightHull { corners: [c; 4], radius, is_parallel: false });
+        let ball = (point(2.0), 0.001..1.5f64).prop_map(|(c, radius)| LightHull {
+            corners: [c; 4],
+            radius,
+            is_parallel: false,
+        });
         let rect = (point(2.0), point(1.0), point(1.0)).prop_map(|(c, u, v)| {
             let corners = [c + u + v, c + u - v, c - u - v, c - u + v];
             LightHull { corners, radius: 0.0, is_parallel: false }

@@ -425,6 +425,11 @@ impl Casters {
         &self.meshes
     }
 
+    /// A mesh as it is posed, computed by the CPU; `None` for meshes without a pose.
+    pub(crate) fn posed_mesh(&self, mesh: usize) -> Option<Mesh> {
+        self.poses.posed(mesh)
+    }
+
     /// Planes of the triangles of a mesh as it is posed, in the order of its [`umbrage_core::adjacency::Adjacency`].
     pub(crate) fn planes<'a>(&'a self, mesh: u32, edges: &'a MeshEdges) -> &'a [Vec4] {
         self.poses.planes(mesh as usize, &edges.adjacency).unwrap_or(&edges.adjacency.planes)

@@ -161,9 +161,7 @@ macro_rules! coverage {
                 // What comes from behind the observer comes from infinitely far away.
                 let start = if from[2] > 0.0 { place(from).max(-half) } else { -half };
                 let end = if to[2] > 0.0 { place(to).min(half) } else { half };
-                let at = |s: $float| {
-                    [along[0] * s - distance * n[0] / length, along[1] * s - distance * n[1] / length]
-                };
+                let at = |s: $float| [along[0] * s - distance * n[0] / length, along[1] * s - distance * n[1] / length];
                 (start < end).then(|| [at(start), at(end)])
             }
 

@@ -14,5 +14,6 @@ mod taps;
 pub use blue_noise::blue_noise;
 pub use hard_lights::hard_lights;
 pub use light_sampler::{LightFrom, LightSampler};
+pub use luminance::Luminance;
 pub use points::{lattice, rotated, shift, square_to_disc};
 pub use taps::{Domain, Pattern, TapTable};

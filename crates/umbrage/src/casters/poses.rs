@@ -164,6 +164,12 @@ impl Poses {
         true
     }
 
+    /// A mesh as it is bent, by the CPU; `None` for meshes of the scene.
+    pub fn posed(&self, mesh: usize) -> Option<Mesh> {
+        let posed = self.get(mesh)?;
+        Some(posed.bound.as_ref()?.posed(&posed.joints))
+    }
+
     /// Planes of a bent mesh, by the CPU; `None` for meshes of the scene.
     pub fn planes(&self, mesh: usize, adjacency: &Adjacency) -> Option<&[Vec4]> {
         let posed = self.get(mesh)?;

@@ -3,6 +3,7 @@
 //! Sources: Assarsson and Akenine-Möller 2003; SG "A Soft Shadow Volume Algorithm"; PX 4, 6 and 7.2.
 
 mod light;
+mod mask;
 mod pipelines;
 mod select;
 mod targets;
@@ -35,34 +36,37 @@ const EYE_SHADER: Shader = Shader {
 
 const DRAW_SHADER: Shader = Shader {
     name: "wedges",
-    parts: &[
-        RECEIVERS,
-        LIGHT,
-        COVERAGE,
-        RECORD,
-        include_str!("draw.wgsl"),
-        include_str!("term_analytic.wgsl"),
-    ],
+    parts: &[RECEIVERS, LIGHT, COVERAGE, RECORD, include_str!("draw.wgsl"), include_str!("term_analytic.wgsl")],
     layouts: &[WedgeLight::LAYOUT, Eye::LAYOUT],
 };
 
 const RESOLVE_SHADER: Shader = Shader {
     name: "wedge visibility",
-    parts: &[
-        FULLSCREEN,
-        RECEIVERS,
-        LIGHT,
-        include_str!("resolve.wgsl"),
-    ],
+    parts: &[FULLSCREEN, RECEIVERS, LIGHT, include_str!("resolve.wgsl")],
     layouts: &[WedgeLight::LAYOUT, Eye::LAYOUT],
 };
 
-const PARAMS: &[Param] = &[Param {
-    name: "radius",
-    help: "Radius of point and spot lights, which are hard without one.",
-    unit: "m",
-    kind: ParamKind::Float { min: 0.0, max: 1000.0, default: 0.0 },
-}];
+const PARAMS: &[Param] = &[
+    Param {
+        name: "combine",
+        help: "What becomes of casters that hide the same part of the light: their shares add up, or every point keeps a bit for each sample of \
+               the light, which triangles strike out.",
+        unit: "",
+        kind: ParamKind::Choice { values: &["sum", "bitmask"] },
+    },
+    Param {
+        name: "samples",
+        help: "Samples of the light with `combine = bitmask`, rounded up to a multiple of 32.",
+        unit: "",
+        kind: ParamKind::Int { min: 32, max: 256, default: 64 },
+    },
+    Param {
+        name: "radius",
+        help: "Radius of point and spot lights, which are hard without one.",
+        unit: "m",
+        kind: ParamKind::Float { min: 0.0, max: 1000.0, default: 0.0 },
+    },
+];
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
@@ -76,7 +80,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     hard: false,
     params: PARAMS,
     views: &[],
-    shaders: &[FIND_SHADER, MAKE_SHADER, EYE_SHADER, DRAW_SHADER, RESOLVE_SHADER],
+    shaders: &[FIND_SHADER, MAKE_SHADER, EYE_SHADER, DRAW_SHADER, RESOLVE_SHADER, mask::MASK_SHADER],
     readme: include_str!("README.md"),
     make: |gpu, settings| Ok(Box::new(technique::Wedges::new(gpu, settings))),
 };

@@ -47,7 +47,8 @@ impl Buffers {
         // Half as much again, so that a moving camera does not make it grow all the time.
         let wedges = buffer("wedges", (size + size / 2).clamp(RECORD * 64, limit).next_multiple_of(16), Usage::STORAGE);
         let bodies = buffer("draw of wedges", 20, Usage::STORAGE | Usage::INDIRECT);
-        let eye_chunks = buffer("chunks before the eye", u64::from(eye_chunks.next_power_of_two()).max(32) * 8, Usage::STORAGE);
+        let eye_chunks =
+            buffer("chunks before the eye", u64::from(eye_chunks.next_power_of_two()).max(32) * 8, Usage::STORAGE);
         let eye_count = buffer("shadows of the eye", 8, Usage::STORAGE);
         let all = |buffers: &[&wgpu::Buffer], layout| {
             let entries: Vec<_> = buffers.iter().map(|b| b.as_entire_binding()).collect();
@@ -72,7 +73,10 @@ impl Buffers {
     }
 
     pub fn bytes(&self) -> u64 {
-        [&self.light, &self.eye, &self.wedges, &self.bodies, &self.eye_chunks, &self.eye_count].map(|b| b.size()).iter().sum()
+        [&self.light, &self.eye, &self.wedges, &self.bodies, &self.eye_chunks, &self.eye_count]
+            .map(|b| b.size())
+            .iter()
+            .sum()
     }
 }
 

@@ -1,6 +1,7 @@
 //! A frame: choose casters, find silhouettes, build wedges, add up what they cover, resolve.
 
 use super::light::Form;
+use super::mask::Mask;
 use super::pipelines::{Draw, Key, Pipelines, Resolve};
 use super::select::Selection;
 use super::targets::{Buffers, GROUP, Target, lent_depth};
@@ -25,6 +26,8 @@ pub(super) struct Wedges {
     form: Option<Form>,
     casting: u32,
     draws: u32,
+    /// In place of wedges.
+    mask: Option<Mask>,
 }
 
 /// Workgroups in a row, the most that every adapter allows.
@@ -51,6 +54,7 @@ impl Wedges {
             form: None,
             casting: 0,
             draws: 0,
+            mask: (settings.choice("combine") == "bitmask").then(|| Mask::new(gpu, settings.int("samples") as u32)),
         }
     }
 
@@ -88,7 +92,10 @@ impl Wedges {
 
     fn build(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges, form: &Form) {
         let Some(buffers) = &self.buffers else { return };
-        passes.upload(&buffers.light, bytemuck::bytes_of(&form.uniform(view, ROUNDING, self.selection.eye_chunks.len() as u32)));
+        passes.upload(
+            &buffers.light,
+            bytemuck::bytes_of(&form.uniform(view, ROUNDING, self.selection.eye_chunks.len() as u32)),
+        );
         passes.upload(&buffers.eye, bytemuck::bytes_of(&Eye::new(view)));
         passes.upload(&buffers.eye_chunks, bytemuck::cast_slice(&self.selection.eye_chunks));
         passes.upload(&buffers.eye_count, &[0; 8]);
@@ -132,7 +139,8 @@ impl Wedges {
             pass.draw_indexed_indirect(arguments, offset);
             draws += 1;
         }
-        if let Some(pipeline) = self.pipelines.drawing(Self::key(view, form, Draw::Bodies)).filter(|_| !form.is_point()) {
+        if let Some(pipeline) = self.pipelines.drawing(Self::key(view, form, Draw::Bodies)).filter(|_| !form.is_point())
+        {
             pass.set_pipeline(pipeline);
             pass.set_index_buffer(self.body_indices.slice(..), wgpu::IndexFormat::Uint16);
             pass.draw_indexed_indirect(&buffers.bodies, 0);
@@ -152,8 +160,10 @@ impl Technique for Wedges {
         let form = Form::of(&view.light.shape, has_picture, self.point_radius);
         self.casting = view.casters.casting().len() as u32;
         self.selection.choose(gpu, view, &form, ROUNDING)?;
-        if !self.selection.throws.is_empty() {
-            self.make_ready(gpu, view, &form)?;
+        match &mut self.mask {
+            _ if self.selection.throws.is_empty() => (),
+            Some(mask) => mask.prepare(gpu, view, &form, &self.selection, ROUNDING)?,
+            None => self.make_ready(gpu, view, &form)?,
         }
         self.form = Some(form);
         Ok(())
@@ -167,11 +177,15 @@ impl Technique for Wedges {
             drop(passes.render("visibility", &[visibility.overwrite()], None));
             return Ok(());
         };
+        if let Some(mask) = &mut self.mask {
+            mask.record(passes, view, &form, ROUNDING, visibility);
+            self.draws = 1;
+            return Ok(());
+        }
         self.build(passes, view, edges, &form);
         self.draws = self.add_up(passes, view, &form);
         let mut pass = passes.render("visibility", &[visibility.overwrite()], None);
-        if let (Some(pipeline), Some(target)) =
-            (self.pipelines.resolving(Self::resolve_key(view, &form)), &self.target)
+        if let (Some(pipeline), Some(target)) = (self.pipelines.resolving(Self::resolve_key(view, &form)), &self.target)
         {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &view.receivers.bind_group, &[]);
@@ -190,7 +204,10 @@ impl Technique for Wedges {
             triangles: u64::from(self.silhouettes.room(Part::PassSides)) * 10,
             casters_drawn: thrown,
             casters_culled: self.casting.saturating_sub(thrown),
-            bytes: own + self.silhouettes.bytes() + self.body_indices.size(),
+            bytes: own
+                + self.mask.as_ref().map_or(0, Mask::bytes)
+                + self.silhouettes.bytes()
+                + self.body_indices.size(),
         }
     }
 }
