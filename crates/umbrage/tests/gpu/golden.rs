@@ -58,6 +58,12 @@ const GOLDEN: &[Row] = &[
     ("contact", 1.0, 0, "volume", "", 0.3, 100.0),
     ("overlap", 1.0, 0, "volume", "", 0.3, 100.0),
     ("duelling-frusta", 1.0, 0, "volume", "", 0.3, 100.0),
+    ("primitives", 1.0, 0, "wedges", "", 0.3, 100.0),
+    ("city", 1.0, 0, "wedges", "", 0.3, 100.0),
+    ("lantern", 1.0, 0, "wedges", "", 0.6, 100.0),
+    ("picket-fence", 1.0, 0, "wedges", "", 0.3, 100.0),
+    ("overlap", 1.0, 0, "wedges", "", 0.3, 100.0),
+    ("duelling-frusta", 1.0, 0, "wedges", "", 0.3, 100.0),
 ];
 
 /// So few pixels more or less do not make an error another one: what is stated as next to nothing may be nothing.

@@ -16,3 +16,4 @@ mod solids;
 mod steady;
 mod volume;
 mod warped;
+mod wedges;

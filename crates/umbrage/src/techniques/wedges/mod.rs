@@ -56,7 +56,7 @@ const PARAMS: &[Param] = &[
     },
     Param {
         name: "samples",
-        help: "Samples of the light with `combine = bitmask`, rounded up to a multiple of 32.",
+        help: "Samples of the light with `combine = bitmask`, and of every textured rectangle; rounded up to a multiple of 32.",
         unit: "",
         kind: ParamKind::Int { min: 32, max: 256, default: 64 },
     },

@@ -1,6 +1,6 @@
 //! A frame: choose casters, find silhouettes, build wedges, add up what they cover, resolve.
 
-use super::light::Form;
+use super::light::{Face, Form};
 use super::mask::Mask;
 use super::pipelines::{Draw, Key, Pipelines, Resolve};
 use super::select::Selection;
@@ -26,8 +26,10 @@ pub(super) struct Wedges {
     form: Option<Form>,
     casting: u32,
     draws: u32,
-    /// In place of wedges.
+    /// In place of wedges: for all lights, or for pictures, whose shares don't go by area.
     mask: Option<Mask>,
+    masks_all: bool,
+    samples: u32,
 }
 
 /// Workgroups in a row, the most that every adapter allows.
@@ -54,13 +56,19 @@ impl Wedges {
             form: None,
             casting: 0,
             draws: 0,
-            mask: (settings.choice("combine") == "bitmask").then(|| Mask::new(gpu, settings.int("samples") as u32)),
+            mask: None,
+            masks_all: settings.choice("combine") == "bitmask",
+            samples: settings.int("samples") as u32,
         }
     }
 
     fn key(view: &View<'_>, form: &Form, draw: Draw) -> Key {
         let depth = lent_depth(view.receivers).map(|d| (d.texture().format(), is_reversed(view)));
         Key { draw, depth, has_normals: view.receivers.has_normals, face: form.face }
+    }
+
+    fn is_masked(&self, form: &Form) -> bool {
+        self.masks_all || form.face == Face::Picture
     }
 
     fn resolve_key(view: &View<'_>, form: &Form) -> Resolve {
@@ -160,10 +168,12 @@ impl Technique for Wedges {
         let form = Form::of(&view.light.shape, has_picture, self.point_radius);
         self.casting = view.casters.casting().len() as u32;
         self.selection.choose(gpu, view, &form, ROUNDING)?;
-        match &mut self.mask {
-            _ if self.selection.throws.is_empty() => (),
-            Some(mask) => mask.prepare(gpu, view, &form, &self.selection, ROUNDING)?,
-            None => self.make_ready(gpu, view, &form)?,
+        let is_lit = self.selection.throws.is_empty();
+        if !is_lit && self.is_masked(&form) {
+            let mask = self.mask.get_or_insert_with(|| Mask::new(gpu, self.samples));
+            mask.prepare(gpu, view, &form, &self.selection, ROUNDING)?;
+        } else if !is_lit {
+            self.make_ready(gpu, view, &form)?;
         }
         self.form = Some(form);
         Ok(())
@@ -177,7 +187,7 @@ impl Technique for Wedges {
             drop(passes.render("visibility", &[visibility.overwrite()], None));
             return Ok(());
         };
-        if let Some(mask) = &mut self.mask {
+        if let Some(mask) = self.mask.as_mut().filter(|_| self.masks_all || form.face == Face::Picture) {
             mask.record(passes, view, &form, ROUNDING, visibility);
             self.draws = 1;
             return Ok(());
