@@ -43,6 +43,32 @@ pub fn soft_shadow_hull(camera: &CameraView, receivers: &Bounds, light: &[DVec4]
     Some(Convex::hull_about(camera.eye, &points))
 }
 
+/// The side of `seen`, a box that holds all rays from the eye to what they end at, where the shadow of the box `bounds` leaves it
+/// soonest, as n · p = w: what lies beyond counts for nothing. Zero where the shadow leaves the box through several sides.
+pub fn shadow_end(seen: &Bounds, bounds: &Bounds, light_center: DVec4) -> DVec4 {
+    let light = light_center.truncate();
+    let middle = bounds.center() * light_center.w - light;
+    // How far each face of the caster's box is from the light, and how many times as far the shadow's middle leaves.
+    let (low, high) = (bounds.min * light_center.w - light, bounds.max * light_center.w - light);
+    let (to_low, to_high) = (seen.min - bounds.center(), seen.max - bounds.center());
+    // Not so steep that rounding moves where a ray meets the side.
+    let least = 1e-3 * middle.length();
+    let mut best = (f64::INFINITY, DVec4::ZERO);
+    for (axis, normal) in [DVec3::X, DVec3::Y, DVec3::Z].into_iter().enumerate() {
+        let (times, end) = if low[axis] > least {
+            (to_high[axis] / middle[axis], normal.extend(seen.max[axis]))
+        } else if high[axis] < -least {
+            (to_low[axis] / middle[axis], (-normal).extend(-seen.min[axis]))
+        } else {
+            continue;
+        };
+        if times < best.0 {
+            best = (times, end);
+        }
+    }
+    best.1
+}
+
 /// The occlusion pyramid (GG 9.5.4): the hull of the light's centre, the eye and the near rectangle. A caster outside
 /// shadows no point of either.
 pub fn occlusion_pyramid(camera: &CameraView, light_center: DVec4) -> Convex {

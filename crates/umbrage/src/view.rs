@@ -2,7 +2,7 @@
 
 use crate::{casters::Casters, receivers::Receivers};
 use umbrage_core::glam::DMat4;
-use umbrage_core::{CameraView, Light, Texture};
+use umbrage_core::{Bounds, CameraView, Frustum, Light, Texture};
 
 /// Camera, receivers, casters and the one light whose visibility is asked for.
 #[derive(Clone, Copy)]
@@ -25,5 +25,12 @@ impl View<'_> {
     pub fn clip_from_eye(&self) -> DMat4 {
         let rotation = DMat4::from_mat3(self.camera.view_from_world.matrix3);
         self.camera.clip_from_view * rotation
+    }
+
+    /// A box around what the camera sees of the receivers.
+    pub(crate) fn seen(&self) -> Bounds {
+        let mut corners = Vec::with_capacity(32);
+        Frustum::of(&self.camera.clip_from_world()).clip_box(&self.casters.receivers_bounds(), &mut corners);
+        Bounds::of(corners)
     }
 }

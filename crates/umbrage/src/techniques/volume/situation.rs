@@ -36,7 +36,7 @@ impl<'a> Situation<'a> {
         let rounding = 4e-6 * largest_coordinate(view);
         let light = off_ties(view.light.shape.center(), rounding);
         let around_eye = around_eye(view).grown(rounding);
-        let seen = seen(view).union(around_eye).grown(4.0 * rounding);
+        let seen = view.seen().union(around_eye).grown(4.0 * rounding);
         let distance = |corner: DVec3| corner.distance(light.truncate());
         Self {
             view,
@@ -66,31 +66,9 @@ impl<'a> Situation<'a> {
         }
     }
 
-    /// The side of the box around all that is seen where the caster's shadow leaves it soonest, as n · p = w. Rays from
-    /// the eye stay inside, so what lies beyond counts for nothing and need not be drawn. Zero where the shadow leaves the
-    /// box through several sides.
+    /// The side of the box around all that is seen where the caster's shadow may end, see [`shadow_hull::shadow_end`].
     pub fn end_of(&self, bounds: &Bounds) -> DVec4 {
-        let light = self.light.truncate();
-        let middle = bounds.center() * self.light.w - light;
-        // How far each face of the caster's box is from the light, and how many times as far the shadow's middle leaves.
-        let (low, high) = (bounds.min * self.light.w - light, bounds.max * self.light.w - light);
-        let (to_low, to_high) = (self.seen.min - bounds.center(), self.seen.max - bounds.center());
-        // Not so steep that rounding moves where a ray meets the side.
-        let least = 1e-3 * middle.length();
-        let mut best = (f64::INFINITY, DVec4::ZERO);
-        for (axis, normal) in [DVec3::X, DVec3::Y, DVec3::Z].into_iter().enumerate() {
-            let (times, end) = if low[axis] > least {
-                (to_high[axis] / middle[axis], normal.extend(self.seen.max[axis]))
-            } else if high[axis] < -least {
-                (to_low[axis] / middle[axis], (-normal).extend(-self.seen.min[axis]))
-            } else {
-                continue;
-            };
-            if times < best.0 {
-                best = (times, end);
-            }
-        }
-        best.1
+        shadow_hull::shadow_end(&self.seen, bounds, self.light)
     }
 
     /// A box around what a caster's box throws onto a plane that [`Situation::end_of`] gave.
@@ -151,13 +129,6 @@ fn around_eye(view: &View<'_>) -> Bounds {
         view.camera.eye + p.truncate() / p.w
     });
     Bounds::of(near).with(view.camera.eye)
-}
-
-/// A box around what the camera sees of the receivers.
-fn seen(view: &View<'_>) -> Bounds {
-    let mut corners = Vec::with_capacity(32);
-    Frustum::of(&view.camera.clip_from_world()).clip_box(&view.casters.receivers_bounds(), &mut corners);
-    Bounds::of(corners)
 }
 
 pub(super) fn overlap(a: &Bounds, b: &Bounds) -> bool {

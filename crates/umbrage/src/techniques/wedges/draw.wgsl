@@ -25,20 +25,19 @@ fn is_inside(p: vec3f, plane: vec4f, eye_inside: f32) -> bool {
 struct Side {
     @builtin(position) position: vec4f,
     @location(0) @interpolate(flat) plane: vec4f,
-    // Weights, and whether the eye is on the side of the shadow.
-    @location(1) @interpolate(flat) counts: vec3f,
+    @location(1) @interpolate(flat) weights: vec2f,
 }
 
-// Corner 0…3 of a quad: end, start, start's shadow, end's shadow. It has no depth: whether it is in front of what is seen the
+// Corner 0…3 of a quad: end, start, start's shadow, end's shadow, counter-clockwise seen from outside of the shadow. It has no depth: whether it is in front of what is seen the
 // fragment shader finds.
 @vertex
 fn side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32) -> Side {
     let number = group * GROUP + vertex / 4u;
     let corner = vertex % 4u;
     var out: Side;
-    out.counts = vec3f(wedges[number].weights, wedges[number].eye_inside);
+    out.weights = wedges[number].weights;
     out.position = NOWHERE;
-    if all(out.counts.xy == vec2f(0.0)) {
+    if all(out.weights == vec2f(0.0)) {
         return out;
     }
     out.plane = wedges[number].plane;
@@ -50,14 +49,16 @@ fn side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32)
     return out;
 }
 
+// On which side the eye is goes by the rasteriser, which decides what a quad that is seen edge-on covers.
 @fragment
-fn add_side(in: Side) -> @location(0) vec2f {
+fn add_side(in: Side, @builtin(front_facing) from_outside: bool) -> @location(0) vec2f {
     let depth = textureLoad(receiver_depth, vec2i(in.position.xy), 0);
     if depth == eye.background_depth {
         discard;
     }
-    let inside = is_inside(receiver(in.position.xy, depth), in.plane, in.counts.z);
-    return in.counts.xy * (f32(inside) - in.counts.z);
+    let eye_inside = f32(!from_outside);
+    let inside = is_inside(receiver(in.position.xy, depth), in.plane, eye_inside);
+    return in.weights * (f32(inside) - eye_inside);
 }
 
 struct Body {

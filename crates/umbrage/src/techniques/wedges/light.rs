@@ -3,7 +3,7 @@
 use crate::shader::shader_struct;
 use crate::view::View;
 use umbrage_core::glam::{DMat3, DVec3, DVec4};
-use umbrage_core::{Bounds, Frustum, LightShape};
+use umbrage_core::LightShape;
 
 shader_struct! {
     /// See `light.wgsl`.
@@ -159,7 +159,7 @@ impl Form {
         let eye = view.camera.eye;
         let center = (self.center.truncate() - eye) * self.center.w;
         let rows = |m: DMat3| [0, 1, 2].map(|i| m.row(i).extend(0.0).as_vec4().to_array());
-        let seen = seen(view);
+        let seen = view.seen();
         let seen = seen.grown(4.0 * rounding * seen.largest_coordinate());
         let corner = |p: DVec3| p.extend(0.0).as_vec4().to_array();
         WedgeLight {
@@ -179,11 +179,4 @@ impl Form {
             pad: 0,
         }
     }
-}
-
-/// A box around what the camera sees of the receivers.
-fn seen(view: &View<'_>) -> Bounds {
-    let mut corners = Vec::with_capacity(32);
-    Frustum::of(&view.camera.clip_from_world()).clip_box(&view.casters.receivers_bounds(), &mut corners);
-    Bounds::of(corners)
 }

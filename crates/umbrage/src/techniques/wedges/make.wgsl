@@ -224,11 +224,8 @@ fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         wedge.plane = vec4f(normal, select(0.0, dot(normal, a), light.parallel != 0u));
     }
     wedge.eye_inside = f32(dot(wedge.plane.xyz, to_light(light, vec3f(0.0))) >= wedge.plane.w);
-    // Segments from the eye to what is seen stay in this box.
-    let ends = array<vec3f, 2>(wedge.eye_start, wedge.eye_end);
-    let away = array<vec3f, 2>(from_light(light, -way_to_light(light, a)), from_light(light, -way_to_light(light, b)));
-    let ways = array<vec3f, 4>(away[0], away[0], away[1], away[1]);
-    wedge.dark = end_of(ends, ways, min(light.low.xyz, vec3f(0.0)), max(light.high.xyz, vec3f(0.0)));
+    let end = casters[caster].end;
+    wedge.dark = vec4f(end.xyz, end.w + dot(end.xyz, light.eye_from_origin));
     if !body(a, b, &wedge) {
         everywhere(&wedge);
     }

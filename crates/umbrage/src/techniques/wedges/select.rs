@@ -6,12 +6,15 @@ use crate::silhouettes::Throw;
 use crate::{error::Error, gpu::Gpu, view::View};
 use umbrage_core::adjacency::Adjacency;
 use umbrage_core::glam::DVec4;
-use umbrage_core::shadow_hull::{segment_touches, soft_shadow_hull};
+use umbrage_core::shadow_hull::{segment_touches, shadow_end, soft_shadow_hull};
 use umbrage_core::silhouette::Rule;
 
 /// A mesh with no more open edges than this, and no flatter, is a body with holes and not a sheet.
 const MOST_OPEN: f64 = 0.05;
 const MOST_FLAT: f64 = 0.1;
+
+/// Sides end behind what is seen by this share of its size: more than the rasteriser's own rounding of corners comes to.
+const BEHIND: f64 = 2e-3;
 
 /// Triangles that are searched together, see `eye.wgsl`.
 const CHUNK: u32 = 64;
@@ -42,6 +45,9 @@ impl Selection {
             casters.casting().query(&body, &mut self.found);
         }
         self.found.sort_unstable();
+        // Segments from the eye to what is seen stay in this box. One plane a caster, so that neighbours share corners.
+        let seen = view.seen().with(view.camera.eye);
+        let seen = seen.grown(BEHIND * seen.size().length());
         let lights: Vec<_> = hull.iter().map(|center| casters::Light { center: *center, receivers }).collect();
         for &place in &self.found {
             let placed = &casters.placed()[place as usize];
@@ -51,7 +57,8 @@ impl Selection {
             }
             let mesh = edges.of_mesh(placed.mesh);
             if !mesh.adjacency.edges.is_empty() {
-                self.throws.push(throw(place, &mesh.adjacency));
+                let end = shadow_end(&seen, &placed.bounds, form.center);
+                self.throws.push(throw(place, &mesh.adjacency, end));
             }
         }
         self.search_eye(casters, edges, view, form.center, rounding);
@@ -72,7 +79,7 @@ impl Selection {
 
 /// A closed body throws the shadow of its far side: both sides would cover the light twice. Of one with holes both count apart. Every
 /// other mesh is a sheet, which covers the light once wherever it is.
-fn throw(place: u32, mesh: &Adjacency) -> Throw {
+fn throw(place: u32, mesh: &Adjacency, end: DVec4) -> Throw {
     Throw {
         place,
         rule: if mesh.is_closed { Rule::Away } else { Rule::All },
@@ -80,7 +87,7 @@ fn throw(place: u32, mesh: &Adjacency) -> Throw {
         z_fail: false,
         light_cap: false,
         dark_cap: false,
-        end: DVec4::ZERO,
+        end,
         reach: 0.0,
     }
 }
