@@ -237,8 +237,8 @@ pub fn run() -> Result<()> {
         "compare {scenes} --techniques {all} --samples 1024 --size 350x350 --frames 1 --json -o target/tables/za"
     );
     let runs = [
-        Run { file: "static-700.json", line: bench(&fast, SIZES[0], "none", FRAMES) },
-        Run { file: "static-900.json", line: bench(&fast, SIZES[1], "none", FRAMES) },
+        Run { file: "static-700.json", line: bench(&fast, SIZES[0], "still", FRAMES) },
+        Run { file: "static-900.json", line: bench(&fast, SIZES[1], "still", FRAMES) },
         Run { file: "dynamic-700.json", line: bench(&fast, SIZES[0], "lights", FRAMES) },
         Run { file: "dynamic-900.json", line: bench(&fast, SIZES[1], "lights", FRAMES) },
         Run { file: "brute-force-700.json", line: bench(&brute, SIZES[0], "lights", 1) },

@@ -105,8 +105,7 @@ fn a_plate_that_is_not_convex_is_exact() {
     let sphere = LightShape::Sphere { position, radius: 0.5 };
     let (direction, up) = (DVec3::NEG_Y, DVec3::Z);
     let rect = LightShape::Rect { position, direction, up, size: [1.0, 0.6].into(), texture: None };
-    let ellipsoid =
-        LightShape::Ellipsoid { position, radii: DVec3::new(0.6, 0.3, 0.2), rotation: Default::default() };
+    let ellipsoid = LightShape::Ellipsoid { position, radii: DVec3::new(0.6, 0.3, 0.2), rotation: Default::default() };
     let gpu = gpu();
     for shape in [sphere, rect, ellipsoid] {
         let kind = shape.kind();
@@ -181,7 +180,11 @@ fn lights_and_points_within_each_other_stay_between_0_and_1() {
         LightShape::Sphere { position: DVec3::new(0.9, 1.0, 0.0), radius: 0.0 },
         LightShape::Disc { position: DVec3::Y, direction: DVec3::X, radius: 2.0 },
         LightShape::Line { from: DVec3::new(-2.0, 1.0, 0.0), to: DVec3::new(2.0, 1.0, 0.0) },
-        LightShape::Ellipsoid { position: DVec3::Y * 3.0, radii: DVec3::new(2.0, 0.0, 1e-9), rotation: Default::default() },
+        LightShape::Ellipsoid {
+            position: DVec3::Y * 3.0,
+            radii: DVec3::new(2.0, 0.0, 1e-9),
+            rotation: Default::default(),
+        },
         LightShape::Directional { direction: DVec3::X, angle_deg: 40.0 },
     ];
     for shape in shapes {
@@ -189,7 +192,8 @@ fn lights_and_points_within_each_other_stay_between_0_and_1() {
             let text = format!("{shape:?} {set}");
             let scene = star(shape.clone());
             let picture = visibility(&mut renderer(&gpu, &scene, 0, "wedges", set, (96, 72)), &scene);
-            let wrong = (0..72).flat_map(|y| (0..96).map(move |x| (x, y))).find(|p| !(0.0..=1.0).contains(&picture[*p]));
+            let wrong =
+                (0..72).flat_map(|y| (0..96).map(move |x| (x, y))).find(|p| !(0.0..=1.0).contains(&picture[*p]));
             assert_eq!(wrong, None, "{text}");
         }
     }

@@ -2,8 +2,8 @@
 
 use crate::shader::shader_struct;
 use crate::view::View;
-use umbrage_core::glam::{DMat3, DVec3, DVec4};
 use umbrage_core::LightShape;
+use umbrage_core::glam::{DMat3, DVec3, DVec4};
 
 shader_struct! {
     /// See `light.wgsl`.

@@ -46,7 +46,6 @@ struct Rows {
 override FACE: u32 = BALL;
 // 32 samples each.
 override WORDS: u32 = 2u;
-const MOST_WORDS: u32 = 8u;
 
 // Two unit vectors that make a right-handed system with a third one (Duff et al. 2017).
 fn across(z: vec3f) -> array<vec3f, 2> {
@@ -110,14 +109,14 @@ fn on_rows(rows: Rows, d: vec3f) -> vec3f {
     return vec3f(dot(rows.x, d), dot(rows.y, d), dot(rows.w, d));
 }
 
-var<private> hidden: array<u32, MOST_WORDS>;
+// The samples that are hidden. Words that there are none for are full. Two vectors and no array: indices that are not constant cost
+// loops, whose rounds some drivers count and cut off.
+var<private> first: vec4u;
+var<private> second: vec4u;
 
 fn is_dark() -> bool {
-    var all = 0xffffffffu;
-    for (var i = 0u; i < WORDS; i++) {
-        all &= hidden[i];
-    }
-    return all == 0xffffffffu;
+    let all = first & second;
+    return (all.x & all.y & all.z & all.w) == 0xffffffffu;
 }
 
 // Strikes out the samples that a triangle hides.
@@ -145,11 +144,7 @@ fn strike(rows: Rows, p: vec3f, triangle: u32, tolerance: f32) {
     // A sample is hidden where the ray to it passes on the same side of all edges, and meets the plane before the light.
     let least = select(abs(volume), 0.0, light.parallel != 0u);
     let edges = Edges(vec3f(u.x, v.x, w.x), vec3f(u.y, v.y, w.y), vec3f(u.z, v.z, w.z), sum, least);
-    for (var i = 0u; i < WORDS; i++) {
-        if hidden[i] != 0xffffffffu {
-            hidden[i] |= struck(edges, i);
-        }
-    }
+    strike_all(edges);
 }
 
 // Lines over a triangle's edges on the face, positive inside, the sum of all and its least value.
@@ -180,6 +175,31 @@ fn struck(edges: Edges, word: u32) -> u32 {
     return struck4(edges, at) | (struck4(edges, at + 1u) << 4u) | (struck4(edges, at + 2u) << 8u)
         | (struck4(edges, at + 3u) << 12u) | (struck4(edges, at + 4u) << 16u) | (struck4(edges, at + 5u) << 20u)
         | (struck4(edges, at + 6u) << 24u) | (struck4(edges, at + 7u) << 28u);
+}
+
+fn strike_all(edges: Edges) {
+    first.x |= struck(edges, 0u);
+    if WORDS > 1u {
+        first.y |= struck(edges, 1u);
+    }
+    if WORDS > 2u {
+        first.z |= struck(edges, 2u);
+    }
+    if WORDS > 3u {
+        first.w |= struck(edges, 3u);
+    }
+    if WORDS > 4u {
+        second.x |= struck(edges, 4u);
+    }
+    if WORDS > 5u {
+        second.y |= struck(edges, 5u);
+    }
+    if WORDS > 6u {
+        second.z |= struck(edges, 6u);
+    }
+    if WORDS > 7u {
+        second.w |= struck(edges, 7u);
+    }
 }
 
 fn walk_mesh(rows: Rows, p: vec3f, place: Placed) {
@@ -240,10 +260,7 @@ fn strike_horizon(p: vec3f, rows: Rows, normal: vec3f) {
         y = 0.0;
     }
     let line = vec3f(x, y, height) * -1.0;
-    let edges = Edges(line.xxx, line.yyy, line.zzz, line, 0.0);
-    for (var i = 0u; i < WORDS; i++) {
-        hidden[i] |= struck(edges, i);
-    }
+    strike_all(Edges(line.xxx, line.yyy, line.zzz, line, 0.0));
 }
 
 @fragment
@@ -256,9 +273,9 @@ fn mask(@builtin(position) at: vec4f) -> @location(0) f32 {
     let p = to_light(light, here);
     let rows = rows_at(p);
     let surface = surface(eye, at.xy, depth);
-    for (var i = 0u; i < WORDS; i++) {
-        hidden[i] = 0u;
-    }
+    let full = 0xffffffffu;
+    first = select(vec4u(full), vec4u(0u), vec4u(0u, 1u, 2u, 3u) < vec4u(WORDS));
+    second = select(vec4u(full), vec4u(0u), vec4u(4u, 5u, 6u, 7u) < vec4u(WORDS));
     if surface.casts {
         strike_horizon(p, rows, surface.normal);
     }
@@ -268,9 +285,6 @@ fn mask(@builtin(position) at: vec4f) -> @location(0) f32 {
     let y = vec3f(l[0].y, l[1].y, l[2].y);
     let z = vec3f(l[0].z, l[1].z, l[2].z);
     walk(through(rows, x, y, z), here);
-    var count = 0u;
-    for (var i = 0u; i < WORDS; i++) {
-        count += countOneBits(hidden[i]);
-    }
-    return 1.0 - f32(count) / f32(32u * WORDS);
+    let seen = countOneBits(~first) + countOneBits(~second);
+    return f32(seen.x + seen.y + seen.z + seen.w) / f32(32u * WORDS);
 }
