@@ -88,7 +88,9 @@ fn span(axis: DVec3, other: DVec3, ds: &[DVec3], radius: f64) -> Option<[DVec3; 
     for d in ds {
         let (x, y) = (d.dot(axis), d.dot(other));
         let length = x.hypot(y);
-        if !(length > radius) {
+        // False for what is not a number.
+        let is_outside = length > radius;
+        if !is_outside {
             return None;
         }
         let (middle, half) = (y.atan2(x), (radius / length).acos());

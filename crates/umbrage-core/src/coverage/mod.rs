@@ -150,7 +150,9 @@ macro_rules! coverage {
                     from[0] * to[1] - from[1] * to[0],
                 ];
                 let square = n[0] * n[0] + n[1] * n[1];
-                if !(square > n[2] * n[2]) || (from[2] <= 0.0 && to[2] <= 0.0) {
+                // False for what is not a number.
+                let is_near = square > n[2] * n[2];
+                if !is_near || (from[2] <= 0.0 && to[2] <= 0.0) {
                     return None;
                 }
                 let length = square.sqrt();

@@ -76,7 +76,7 @@ fn masks_are_exact_where_casters_overlap() {
 fn star(light: LightShape) -> Scene {
     let mut scene = scene("contact", 1.0);
     let corner = |i: usize| {
-        let (angle, radius) = (i as f32 * std::f32::consts::PI / 8.0, if i % 2 == 0 { 0.9 } else { 0.35 });
+        let (angle, radius) = (i as f32 * std::f32::consts::PI / 8.0, if i.is_multiple_of(2) { 0.9 } else { 0.35 });
         Vec3::new(radius * angle.cos(), 0.0, -radius * angle.sin())
     };
     let positions: Vec<Vec3> = std::iter::once(Vec3::ZERO).chain((0..16).map(corner)).collect();

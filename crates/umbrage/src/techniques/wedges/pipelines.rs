@@ -1,7 +1,10 @@
 //! Pipelines that build, count and draw wedges.
 
+use super::DRAW_SHADER;
+use super::EYE_SHADER;
+use super::MAKE_SHADER;
+use super::RESOLVE_SHADER;
 use super::light::Face;
-use super::{DRAW_SHADER, EYE_SHADER, MAKE_SHADER, RESOLVE_SHADER};
 use crate::casters::Edges;
 use crate::fullscreen::{FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, additive, layout, texture};
 use crate::receivers::Receivers;
