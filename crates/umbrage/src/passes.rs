@@ -65,6 +65,12 @@ impl Passes<'_> {
         self.encoder
     }
 
+    /// Milliseconds on the GPU that all passes of the present owner took in the newest frame whose times have arrived.
+    pub fn last_ms(&self) -> Option<f64> {
+        let own = self.timer.as_ref()?.latest.iter().filter(|t| t.owner == self.owner);
+        own.map(|t| t.time_ms).reduce(|sum, ms| sum + ms)
+    }
+
     /// Names whom the following passes belong to in [`PassTime::owner`].
     pub fn owner(&mut self, owner: impl Into<String>) {
         self.owner = owner.into();

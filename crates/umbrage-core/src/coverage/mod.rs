@@ -16,9 +16,11 @@
 //! Sources: Assarsson and Akenine-Möller, "A Geometry-based Soft Shadow Volume Algorithm using Graphics Hardware",
 //! 2003; SG "A Soft Shadow Volume Algorithm"; PX 4.1.5 and 4.2. That sum over all edges is not in them.
 
+mod cell;
 mod sphere_table;
 mod textured;
 
+pub use cell::{Cell, NO_SIDE};
 pub use sphere_table::SphereTable;
 pub use textured::TexturedTable;
 

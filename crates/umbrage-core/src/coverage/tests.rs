@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 const FACES: [Face; 2] = [Face::Disc, Face::Square];
 
-type Flat = [f64; 2];
+pub(super) type Flat = [f64; 2];
 type Solid = [f64; 3];
 
 fn cross(a: Flat, b: Flat) -> f64 {
@@ -48,7 +48,11 @@ fn mix<const N: usize>(a: [f64; N], b: [f64; N], t: f64) -> [f64; N] {
 
 /// The area that a loop winds around within the face, as a share of the face: a fan of triangles, each clipped.
 fn share_by_clipping(face: Face, polygon: &[Flat]) -> f64 {
-    let outline = outline(face);
+    share_within(&outline(face), polygon) / if face == Face::Disc { PI } else { 4.0 }
+}
+
+/// The area that a loop winds around within a convex outline.
+pub(super) fn share_within(outline: &[Flat], polygon: &[Flat]) -> f64 {
     let area = |p: &[Flat]| (0..p.len()).map(|i| cross(p[i], p[(i + 1) % p.len()])).sum::<f64>() / 2.0;
     let mut sum = 0.0;
     for i in 1..polygon.len().saturating_sub(1) {
@@ -60,7 +64,17 @@ fn share_by_clipping(face: Face, polygon: &[Flat]) -> f64 {
         }
         sum += area(&part);
     }
-    sum / if face == Face::Disc { PI } else { 4.0 }
+    sum
+}
+
+pub(super) fn mix_flat(a: Flat, b: Flat, t: f64) -> Flat {
+    mix(a, b, t)
+}
+
+/// How often a loop winds around a point.
+pub(super) fn winding_about(point: Flat, polygon: &[Flat]) -> f64 {
+    let moved: Vec<Flat> = polygon.iter().map(|p| [p[0] - point[0], p[1] - point[1]]).collect();
+    winding(&moved)
 }
 
 /// How often a loop winds around the origin.

@@ -90,6 +90,8 @@ pub(crate) enum Extrude {
 pub(crate) struct Throw {
     /// Its number in [`Casters::placed`].
     pub place: u32,
+    /// From where its silhouette is seen: a place of the light, or a direction to it (w = 0).
+    pub light: DVec4,
     pub rule: Rule,
     /// A body with holes: what it covers with its near side and with its far side is nearly the same and counts once.
     pub is_body: bool,
@@ -247,7 +249,7 @@ impl Silhouettes {
         };
         self.work.clear();
         for throw in throws {
-            self.work.add(casters, edges, light, throw, self.shape.weighted);
+            self.work.add(casters, edges, throw, self.shape.weighted);
         }
         self.work.finish(self.shape)?;
         if self.extrude == Extrude::Cpu {
@@ -335,10 +337,20 @@ impl Silhouettes {
     pub fn found(&self) -> Option<[u32; 3]> {
         (self.extrude == Extrude::Cpu).then(|| self.work.counts())
     }
+
+    /// Of each caster the numbers of its sides, where the CPU found them.
+    pub fn sides(&self) -> &[Range<u32>] {
+        &self.work.sides
+    }
+
+    /// The edge of a caster's mesh that a side belongs to, and whether it counts twice.
+    pub fn side(&self, caster: usize, number: u32) -> (u32, bool) {
+        self.work.side(caster, number)
+    }
 }
 
 /// A caster as the shaders see it; chunks are filled in later.
-fn caster(casters: &Casters, edges: &Edges, light: DVec4, throw: &Throw) -> Option<Caster> {
+fn caster(casters: &Casters, edges: &Edges, throw: &Throw) -> Option<Caster> {
     let placed = &casters.placed()[throw.place as usize];
     let part = &casters.meshes()[placed.mesh as usize];
     let mesh = edges.of_mesh(placed.mesh);
@@ -354,7 +366,7 @@ fn caster(casters: &Casters, edges: &Edges, light: DVec4, throw: &Throw) -> Opti
     let end = throw.end.truncate();
     Some(Caster {
         end: end.extend(throw.end.w - end.dot(casters.origin())).as_vec4().to_array(),
-        light: light_in_mesh(light, &sides.mesh_from_world, mesh.adjacency.center).to_array(),
+        light: light_in_mesh(throw.light, &sides.mesh_from_world, mesh.adjacency.center).to_array(),
         first_edge: mesh.first_edge,
         edge_count: mesh.adjacency.edges.len() as u32,
         first_triangle: mesh.first_triangle,

@@ -5,7 +5,7 @@ use crate::casters::{Casters, Edges};
 use crate::fullscreen::bind;
 use crate::{error::Error, gpu::Gpu};
 use std::ops::Range;
-use umbrage_core::glam::{DVec4, Vec3, Vec4};
+use umbrage_core::glam::{Vec3, Vec4};
 use umbrage_core::silhouette::{Rule, facing, multiplicity};
 
 /// A frame's casters. Keeps its memory.
@@ -22,6 +22,8 @@ pub(super) struct Work {
     /// What the CPU found: the header, then lists of the three parts, one after the other as `room` lays them out.
     pub entries: Vec<u32>,
     counts: [u32; 3],
+    /// Of each caster the entries of sides, where the CPU found them.
+    pub sides: Vec<Range<u32>>,
     edges: u64,
     triangles: u64,
 }
@@ -48,8 +50,8 @@ impl Work {
         (self.edges, self.triangles) = (0, 0);
     }
 
-    pub fn add(&mut self, casters: &Casters, edges: &Edges, light: DVec4, throw: &Throw, weighted: bool) {
-        let Some(mut new) = caster(casters, edges, light, throw) else { return };
+    pub fn add(&mut self, casters: &Casters, edges: &Edges, throw: &Throw, weighted: bool) {
+        let Some(mut new) = caster(casters, edges, throw) else { return };
         new.edge_chunk = self.edge_chunks;
         let chunks = new.edge_count.div_ceil(CHUNK);
         self.chunks.extend(std::iter::repeat_n(self.casters.len() as u32, chunks as usize));
@@ -92,6 +94,7 @@ impl Work {
         self.entries.clear();
         self.entries.resize((HEADER + self.room.iter().sum::<u32>()) as usize, 0);
         self.counts = [0; 3];
+        self.sides.clear();
         for (i, throw) in throws.iter().enumerate() {
             let of = self.casters[i];
             let number = casters.placed()[throw.place as usize].mesh;
@@ -99,6 +102,7 @@ impl Work {
             let planes = casters.planes(number, mesh);
             let light = Vec4::from_array(of.light);
             let part = if throw.z_fail { Part::FailSides } else { Part::PassSides };
+            let before = self.counts[part as usize];
             for (slot, edge) in (of.edge_chunk * CHUNK..).zip(&mesh.adjacency.edges) {
                 let times = multiplicity(edge, planes, light, throw.rule);
                 if times != 0 {
@@ -107,6 +111,7 @@ impl Work {
                     self.push(part, entry, if twice && !shape.weighted { 2 } else { 1 });
                 }
             }
+            self.sides.push(before..self.counts[part as usize]);
             let has_chunks = self.chunks.get(of.triangle_chunk as usize) == Some(&(i as u32));
             if !throw.z_fail || !has_chunks || of.triangle_chunk < self.edge_chunks {
                 continue;
@@ -179,6 +184,12 @@ impl Work {
 
     pub fn looked_at(&self) -> (u64, u64) {
         (self.edges, self.triangles)
+    }
+
+    /// Numbers in the mesh's list of edges, and whether they count twice, of what the CPU found.
+    pub fn side(&self, caster: usize, number: u32) -> (u32, bool) {
+        let entry = self.entries[(self.first(Part::PassSides) + number) as usize];
+        ((entry >> 2) - self.casters[caster].edge_chunk * CHUNK, entry & 2 != 0)
     }
 
     pub fn counts(&self) -> [u32; 3] {

@@ -171,7 +171,7 @@ impl Selection {
         let (light_cap, dark_cap) = if z_fail { self.caps(s, placed, &bounds, end) } else { (false, false) };
         let farthest = s.farthest.filter(|_| ends && !z_fail && end == DVec4::ZERO);
         let reach = s.range.or(farthest).map_or(0.0, |range| s.finite_reach(range, placed, mesh));
-        Throw { place, rule, is_body: false, z_fail, light_cap, dark_cap, end, reach: reach as f32 }
+        Throw { place, light: s.light, rule, is_body: false, z_fail, light_cap, dark_cap, end, reach: reach as f32 }
     }
 
     /// Adds the caster's shadows that the eye is in; false where that can't be told for sure.

@@ -151,3 +151,5 @@ fn share_of_edge(light: WedgeLight, p: vec3f, start: vec3f, end: vec3f, inside: 
 
 // What the light looks like, one of the constants.
 override FACE: u32 = BALL;
+// The light is a piece of a disc or a ball.
+override SPLIT: bool = false;

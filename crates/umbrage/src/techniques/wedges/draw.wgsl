@@ -7,7 +7,11 @@
 const GROUP: u32 = 64u;
 
 // Off the screen, so that the triangle is dropped.
-const NOWHERE: vec4f = vec4f(2.0, 2.0, 0.0, 1.0);
+const NOWHERE: vec4f = vec4f(4.0, 4.0, 0.0, 1.0);
+
+fn depth_at(pixel: vec2f) -> f32 {
+    return textureLoad(receiver_depth, vec2i(pixel), 0);
+}
 
 // In light space.
 fn receiver(pixel: vec2f, depth: f32) -> vec3f {
@@ -43,22 +47,28 @@ fn side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32)
     out.plane = wedges[number].plane;
     let is_start = corner == 1u || corner == 2u;
     let p = select(wedges[number].eye_end, wedges[number].eye_start, is_start);
-    let away = from_light(light, -way_to_light(light, select(wedges[number].end, wedges[number].start, is_start)));
+    let from_here = select(wedges[number].end, wedges[number].start, is_start);
+    let away = from_light(light, -way_to(light, wedges[number].anchor.place, from_here));
     let at = light.clip_from_eye * select(vec4f(p, 1.0), run(p, away, wedges[number].dark), corner >= 2u);
     out.position = vec4f(at.xy, 0.5 * at.w, at.w);
     return out;
 }
 
 // On which side the eye is goes by the rasteriser, which decides what a quad that is seen edge-on covers.
-@fragment
-fn add_side(in: Side, @builtin(front_facing) from_outside: bool) -> @location(0) vec2f {
-    let depth = textureLoad(receiver_depth, vec2i(in.position.xy), 0);
+fn shadows_of_side(in: Side, from_outside: bool) -> vec2f {
+    let pixel = full_pixel(light, in.position.xy);
+    let depth = depth_at(pixel);
     if depth == eye.background_depth {
-        discard;
+        return vec2f(0.0);
     }
     let eye_inside = f32(!from_outside);
-    let inside = is_inside(receiver(in.position.xy, depth), in.plane, eye_inside);
+    let inside = is_inside(receiver(pixel, depth), in.plane, eye_inside);
     return in.weights * (f32(inside) - eye_inside);
+}
+
+@fragment
+fn add_side(in: Side, @builtin(front_facing) from_outside: bool) -> @location(0) vec2f {
+    return shadows_of_side(in, from_outside);
 }
 
 struct Body {
@@ -72,6 +82,7 @@ struct Body {
     @location(5) @interpolate(flat) low: vec4f,
     @location(6) @interpolate(flat) high: vec4f,
     @location(7) @interpolate(flat) eye_inside: f32,
+    @location(8) @interpolate(flat) number: u32,
 }
 
 // Depth is clamped at the far plane, not clipped.
@@ -81,8 +92,25 @@ override CLAMPS: bool = true;
 @vertex
 fn body(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32) -> Body {
     let number = group * GROUP + vertex / 6u;
+    return body_at(number, wedges[number].corners[vertex % 6u]);
+}
+
+// The same of one half, by the instance. They overlap a little, so that no pixel falls between them.
+@vertex
+fn half_body(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Body {
+    let number = vertex / 6u;
+    let corner = vertex % 6u;
+    // Of the corners that are cut off: 3 and 5 of the front half, 2 and 4 of the back half.
+    let is_cut = corner >= 2u && (corner % 2u == 1u) == (instance == 0u);
+    let middle = wedges[number].corners[select(6u, 7u, corner >= 4u)];
+    let own = wedges[number].corners[corner];
+    return body_at(number, select(own, mix(middle, own, 0.01), is_cut));
+}
+
+fn body_at(number: u32, corner: vec4f) -> Body {
     var out: Body;
-    out.position = wedges[number].corners[vertex % 6u];
+    out.position = corner;
+    out.number = number;
     if !CLAMPS {
         out.position.z = 0.5 * out.position.w;
     }
@@ -102,16 +130,85 @@ fn is_in_body(in: Body, p: vec3f) -> bool {
     return all(depths >= vec4f(in.front.w, in.back.w, in.low.w, in.high.w));
 }
 
+struct Met {
+    p: vec3f,
+    inside: bool,
+    hit: bool,
+}
+
+// What is seen behind a fragment of a body, and whether it is in the body.
+fn met(in: Body) -> Met {
+    let pixel = full_pixel(light, in.position.xy);
+    let depth = depth_at(pixel);
+    let p = receiver(pixel, depth);
+    let hit = depth != eye.background_depth && is_in_body(in, p);
+    return Met(p, is_inside(p, in.plane, in.eye_inside), hit);
+}
+
+fn share(in: Body, at: Met) -> f32 {
+    if SPLIT {
+        return share_of_piece(light, at.p, in.start.xyz, in.end.xyz, wedges[in.number].anchor, at.inside);
+    }
+    return share_of_edge(light, at.p, in.start.xyz, in.end.xyz, at.inside);
+}
+
 @fragment
 fn add_wedge(in: Body) -> @location(0) vec2f {
-    let depth = textureLoad(receiver_depth, vec2i(in.position.xy), 0);
-    if depth == eye.background_depth {
+    let at = met(in);
+    if !at.hit {
         discard;
     }
-    let p = receiver(in.position.xy, depth);
-    if !is_in_body(in, p) {
+    return share(in, at) * vec2f(in.start.w, in.end.w);
+}
+
+// Marks what is in a body.
+@fragment
+fn mark(in: Body) -> @location(0) vec2f {
+    if !met(in).hit {
         discard;
     }
-    let inside = is_inside(p, in.plane, in.eye_inside);
-    return share_of_edge(light, p, in.start.xyz, in.end.xyz, inside) * vec2f(in.start.w, in.end.w);
+    return vec2f(0.0);
+}
+
+// Marks all that is seen through a face.
+@fragment
+fn mark_all() -> @location(0) vec2f {
+    return vec2f(0.0);
+}
+
+// Of the half that `half_body` drew, which goes by the sign of the plane: its own side's part. Nothing is discarded, since that would leave marks in
+// the stencil.
+fn add_half(in: Body, is_front: bool) -> vec2f {
+    let at = met(in);
+    let front_inside = wedges[in.number].front_inside;
+    let is_own = front_inside == 2.0 || (at.inside == (front_inside == 1.0)) == is_front;
+    return select(vec2f(0.0), share(in, at) * vec2f(in.start.w, in.end.w), at.hit && is_own);
+}
+
+@fragment
+fn add_front_half(in: Body) -> @location(0) vec2f {
+    return add_half(in, true);
+}
+
+@fragment
+fn add_back_half(in: Body) -> @location(0) vec2f {
+    return add_half(in, false);
+}
+
+// Of one loop: the sum of what its wedges add, how often the hard shadow's sides count, how many wedges have the point outside, and how many
+// there are at all.
+@fragment
+fn add_side_of_loop(in: Side, @builtin(front_facing) from_outside: bool) -> @location(0) vec4f {
+    return vec4f(0.0, shadows_of_side(in, from_outside).x, 0.0, 0.0);
+}
+
+@fragment
+fn add_wedge_of_loop(in: Body) -> @location(0) vec4f {
+    let at = met(in);
+    if !at.hit {
+        discard;
+    }
+    let added = share(in, at);
+    let counts = f32(added != 0.0);
+    return vec4f(added, 0.0, select(counts, 0.0, at.inside), counts);
 }

@@ -4,6 +4,9 @@ struct EyeChunk {
     caster: u32,
     // Its triangles from this one on.
     first: u32,
+    // Where they count, see `eye_count`.
+    slot: u32,
+    pad: u32,
 }
 
 @group(1) @binding(2) var<storage, read> positions: array<f32>;
@@ -11,7 +14,12 @@ struct EyeChunk {
 @group(1) @binding(4) var<storage, read> instances: array<Instance>;
 @group(2) @binding(0) var<uniform> light: WedgeLight;
 @group(2) @binding(1) var<storage, read> eye_chunks: array<EyeChunk>;
-@group(2) @binding(2) var<storage, read_write> eye_count: array<atomic<u32>, 2>;
+// Of each slot two, see `Wedge::weights`. The first slot is that of all casters that are not drawn apart.
+@group(2) @binding(2) var<storage, read_write> eye_count: array<atomic<u32>>;
+// Of casters, if the light is split.
+@group(2) @binding(3) var<storage, read> anchors: array<Anchor>;
+
+override SPLIT: bool = false;
 
 fn corner(caster: u32, triangle: u32, k: u32) -> vec3f {
     let index = casters[caster].first_index + 3u * triangle + k;
@@ -38,7 +46,11 @@ fn count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     let a = corner(chunk.caster, triangle, 0u);
     let b = corner(chunk.caster, triangle, 1u);
     let c = corner(chunk.caster, triangle, 2u);
-    let l = light.center + from_light(light, way_to_light(light, vec3f(0.0)));
+    var seen_from = middle(light);
+    if SPLIT {
+        seen_from = anchors[chunk.caster].place;
+    }
+    let l = light.center + from_light(light, seen_from);
     let sides = vec3f(dot(cross(a, b), l), dot(cross(b, c), l), dot(cross(c, a), l));
     let volume = dot(cross(a, b), c);
     let sum = sides.x + sides.y + sides.z;
@@ -50,10 +62,10 @@ fn count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         let both = (casters[chunk.caster].flags & BODY) == 0u;
         let faces_light = facing(planes[number], casters[chunk.caster].light) > 0;
         if both || faces_light {
-            atomicAdd(&eye_count[0], 1u);
+            atomicAdd(&eye_count[2u * chunk.slot], 1u);
         }
         if both || !faces_light {
-            atomicAdd(&eye_count[1], 1u);
+            atomicAdd(&eye_count[2u * chunk.slot + 1u], 1u);
         }
     }
 }

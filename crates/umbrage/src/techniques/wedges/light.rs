@@ -3,7 +3,8 @@
 use crate::shader::shader_struct;
 use crate::view::View;
 use umbrage_core::LightShape;
-use umbrage_core::glam::{DMat3, DVec3, DVec4};
+use umbrage_core::coverage::Cell;
+use umbrage_core::glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 
 shader_struct! {
     /// See `light.wgsl`.
@@ -17,11 +18,24 @@ shader_struct! {
         center: [f32; 3],
         radius: f32,
         eye_from_origin: [f32; 3],
-        face: u32,
         parallel: u32,
         rounding: f32,
         eye_chunks: u32,
+        scale: u32,
         pad: u32,
+        cell: [f32; 4],
+        cell_sides: [f32; 4],
+        cell_arc: [f32; 4],
+    }
+}
+
+shader_struct! {
+    /// See `light.wgsl`.
+    pub(crate) struct Anchor {
+        place: [f32; 3],
+        pad_a: f32,
+        axis: [f32; 3],
+        pad_b: f32,
     }
 }
 
@@ -48,6 +62,21 @@ pub(super) struct Form {
     radius: f64,
     /// Half extents in world space, which casters are chosen by.
     half: [DVec3; 3],
+    /// Of a split disc or ball the piece that it is.
+    pub cell: Option<Cell>,
+    /// The share of the light that it is.
+    pub weight: f64,
+}
+
+/// How a frame is drawn, for the shaders.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    /// The share of coordinates that single precision is off by.
+    pub rounding: f64,
+    /// See `eye.wgsl`.
+    pub eye_chunks: u32,
+    /// Pixels of the picture to one of the buffer of shares, along each side.
+    pub scale: u32,
 }
 
 /// Corners of the square in light space.
@@ -56,6 +85,18 @@ const SQUARE: [DVec3; 4] =
 
 /// How wide a line is taken to be, as a share of its length; the shader has the same.
 const LINE_WIDTH: f64 = 1e-3;
+
+/// What all lights start with.
+const WHOLE: Form = Form {
+    face: Face::Ball,
+    center: DVec4::ZERO,
+    to_light: DMat3::IDENTITY,
+    corners: [DVec3::ZERO; 4],
+    radius: 0.0,
+    half: [DVec3::ZERO; 3],
+    cell: None,
+    weight: 1.0,
+};
 
 impl Form {
     /// `point_radius`: what points and spots have.
@@ -92,6 +133,7 @@ impl Form {
             corners: [DVec3::ZERO; 4],
             radius: if largest > 1e-9 { 1.0 } else { 0.0 },
             half: [rotation.x_axis * radii.x, rotation.y_axis * radii.y, rotation.z_axis * radii.z],
+            ..WHOLE
         }
     }
 
@@ -106,6 +148,7 @@ impl Form {
             corners: SQUARE.map(|c| c * spread + DVec3::Z),
             radius: 0.0,
             half: [x * tan, y * tan, DVec3::ZERO],
+            ..WHOLE
         }
     }
 
@@ -121,6 +164,7 @@ impl Form {
             corners: SQUARE,
             radius: 0.0,
             half: [x, y, DVec3::ZERO],
+            ..WHOLE
         }
     }
 
@@ -134,7 +178,56 @@ impl Form {
             corners: [DVec3::X, DVec3::X, DVec3::NEG_X, DVec3::NEG_X],
             radius: LINE_WIDTH,
             half: [x, y * (length * LINE_WIDTH), DVec3::ZERO],
+            ..WHOLE
         }
+    }
+
+    /// The light cut into `count` times `count` pieces, a line into `count`. A light without extent is one piece, and so is a picture.
+    pub fn pieces(&self, count: usize) -> Vec<Self> {
+        let [x, y, _] = self.half;
+        let of = count as f64;
+        let at = |i: usize| (2.0 * i as f64 + 1.0) / of - 1.0;
+        let moved = |way: DVec3| self.center.truncate() + way;
+        match self.face {
+            _ if count <= 1 || self.is_point() => vec![*self],
+            Face::Picture => vec![*self],
+            Face::Ball | Face::Disc => Cell::grid(count).into_iter().map(|cell| self.piece(cell)).collect(),
+            Face::Line => {
+                (0..count).map(|i| Self { weight: 1.0 / of, ..Self::line(moved(x * at(i)), x / of) }).collect()
+            }
+            Face::Square => (0..count * count)
+                .map(|i| moved(x * at(i % count) + y * at(i / count)))
+                .map(|center| Self { weight: 1.0 / (of * of), ..Self::flat(self.face, center, x / of, y / of) })
+                .collect(),
+        }
+    }
+
+    fn piece(&self, cell: Cell) -> Self {
+        let mut corners = self.corners;
+        if self.face == Face::Disc {
+            let [low, high] = [cell.low, cell.high].map(|c| DVec2::from_array(c).clamp(DVec2::NEG_ONE, DVec2::ONE));
+            let [a, c] = [high, low].map(|c| c.extend(corners[0].z));
+            corners = [a, DVec3::new(a.x, c.y, a.z), c, DVec3::new(c.x, a.y, a.z)];
+        }
+        Self { corners, cell: Some(cell), weight: cell.around / std::f64::consts::TAU, ..*self }
+    }
+
+    /// From where the silhouette of a caster around `place` is seen, in light space, and the direction in which the piece of a ball has its x.
+    pub fn anchor(&self, place: DVec3) -> (DVec3, DVec3) {
+        let Some(cell) = &self.cell else { return (DVec3::Z * (1.0 - self.center.w), DVec3::X) };
+        let [x, y] = cell.center;
+        if self.face == Face::Disc {
+            return (DVec3::new(x, y, 1.0 - self.center.w), DVec3::X);
+        }
+        let to_center = -(self.to_light * (place - self.center.truncate())).normalize_or(DVec3::NEG_Z);
+        let axis = to_center.any_orthonormal_vector();
+        (axis * x + to_center.cross(axis) * y, axis)
+    }
+
+    /// A place of the light, or a direction to it, from light space.
+    pub fn in_world(&self, place: DVec3) -> DVec4 {
+        let way = self.to_light.inverse() * place;
+        if self.center.w == 0.0 { way.extend(0.0) } else { self.center + way.extend(0.0) }
     }
 
     /// True where it has no extent: shadows are hard.
@@ -153,17 +246,20 @@ impl Form {
         hull
     }
 
-    /// For the shaders; `rounding`: the share of coordinates that single precision is off by; `eye_chunks`: see
-    /// `eye.wgsl`.
-    pub fn uniform(&self, view: &View<'_>, rounding: f64, eye_chunks: u32) -> WedgeLight {
+    /// For the shaders.
+    pub fn uniform(&self, view: &View<'_>, frame: &Frame) -> WedgeLight {
+        let rounding = frame.rounding;
         let eye = view.camera.eye;
         let center = (self.center.truncate() - eye) * self.center.w;
         let rows = |m: DMat3| [0, 1, 2].map(|i| m.row(i).extend(0.0).as_vec4().to_array());
         let seen = view.seen();
         let seen = seen.grown(4.0 * rounding * seen.largest_coordinate());
         let corner = |p: DVec3| p.extend(0.0).as_vec4().to_array();
+        let clip = raster(view.receivers.size, frame.scale) * view.clip_from_eye();
+        let cell = self.cell.unwrap_or_else(|| Cell::grid(1)[0]);
+        let singles = |v: [f64; 4]| v.map(|c| c as f32);
         WedgeLight {
-            clip_from_eye: view.clip_from_eye().as_mat4().to_cols_array_2d(),
+            clip_from_eye: clip.as_mat4().to_cols_array_2d(),
             to_light: rows(self.to_light),
             from_light: rows(self.to_light.inverse()),
             corners: self.corners.map(corner),
@@ -172,11 +268,71 @@ impl Form {
             center: center.as_vec3().to_array(),
             radius: self.radius as f32,
             eye_from_origin: (view.casters.origin() - eye).as_vec3().to_array(),
-            face: self.face as u32,
             parallel: u32::from(self.center.w == 0.0),
             rounding: rounding as f32,
-            eye_chunks,
+            eye_chunks: frame.eye_chunks,
+            scale: frame.scale,
             pad: 0,
+            cell: singles([cell.low[0], cell.low[1], cell.high[0], cell.high[1]]),
+            cell_sides: singles(cell.sides),
+            cell_arc: singles([cell.arc_middle[0], cell.arc_middle[1], cell.arc, cell.around]),
+        }
+    }
+}
+
+/// Size of a buffer that has one place for `scale` pixels along each side, of those whose pixel is in the picture.
+pub(super) fn scaled((width, height): (u32, u32), scale: u32) -> (u32, u32) {
+    let of = |pixels: u32| pixels.saturating_sub(1 + scale / 2) / scale + 1;
+    (of(width), of(height))
+}
+
+/// Takes the picture's clip space to that of such a buffer, so that the middle of a place is that of the pixel it stands for.
+fn raster(size: (u32, u32), scale: u32) -> DMat4 {
+    let (width, height) = scaled(size, scale);
+    let of = |pixels: u32, places: u32| {
+        let share = f64::from(pixels) / f64::from(places * scale);
+        let moved = 0.5 - (f64::from(scale / 2) + 0.5) / f64::from(scale);
+        (share, share - 1.0 + 2.0 * moved / f64::from(places))
+    };
+    let ((x, right), (y, down)) = (of(size.0, width), of(size.1, height));
+    DMat4::from_cols(DVec4::X * x, DVec4::Y * y, DVec4::Z, DVec4::new(right, -down, 0.0, 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_of_smaller_buffers_are_pixels() {
+        for (size, scale) in [((512, 384), 1), ((512, 384), 2), ((511, 383), 2), ((640, 479), 4), ((9, 7), 4)] {
+            let (width, height) = scaled(size, scale);
+            let raster = raster(size, scale);
+            let ndc = |pixel: u32, of: u32| 2.0 * (f64::from(pixel) + 0.5) / f64::from(of) - 1.0;
+            for (x, y) in [(0, 0), (width - 1, height - 1), (width / 2, height / 3)] {
+                let (full_x, full_y) = (x * scale + scale / 2, y * scale + scale / 2);
+                assert!(full_x < size.0 && full_y < size.1, "{size:?} {scale}");
+                let got = raster * DVec4::new(ndc(full_x, size.0), -ndc(full_y, size.1), 0.0, 1.0);
+                assert!((got.x - ndc(x, width)).abs() < 1e-12 && (got.y + ndc(y, height)).abs() < 1e-12, "{size:?} {scale}");
+            }
+        }
+    }
+
+    #[test]
+    fn pieces_make_up_the_light() {
+        let shapes = [
+            LightShape::Sphere { position: DVec3::Y, radius: 0.5 },
+            LightShape::Disc { position: DVec3::Y, direction: DVec3::X, radius: 0.5 },
+            LightShape::Directional { direction: DVec3::NEG_Y, angle_deg: 2.0 },
+            LightShape::Line { from: DVec3::X, to: DVec3::Y },
+            LightShape::Rect { position: DVec3::Y, direction: DVec3::X, up: DVec3::Y, size: DVec2::ONE, texture: None },
+        ];
+        for shape in shapes {
+            for count in 1..=3 {
+                let pieces = Form::of(&shape, false, 0.0).pieces(count);
+                let whole: f64 = pieces.iter().map(|p| p.weight).sum();
+                assert!((whole - 1.0).abs() < 1e-12, "{shape:?} {count}: {whole}");
+                assert_eq!(pieces.len(), if matches!(shape, LightShape::Line { .. }) { count } else { count * count });
+            }
         }
     }
 }

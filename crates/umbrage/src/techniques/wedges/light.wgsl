@@ -18,13 +18,29 @@ struct WedgeLight {
     radius: f32,
     // What makes eye-relative coordinates of those of instances.
     eye_from_origin: vec3f,
-    face: u32,
     parallel: u32,
     // A share of coordinates by which rounding moves things.
     rounding: f32,
     // Chunks of triangles that may be between eye and light.
     eye_chunks: u32,
+    // Pixels of the picture that one of the buffer of shares stands for, along each side.
+    scale: u32,
     pad: u32,
+    // Of a split disc the piece: see `Cell` in the core crate. Its rectangle, what its sides start with, the arc's middle, what the arc starts
+    // with, and ∮ X × dX all around.
+    cell: vec4f,
+    cell_sides: vec4f,
+    cell_arc: vec4f,
+}
+
+// A piece of a disc or a ball under one caster.
+struct Anchor {
+    // Where silhouettes are seen from: a point of the light in light space, or a direction to it.
+    place: vec3f,
+    pad_a: f32,
+    // Projected to the face of a ball its x.
+    axis: vec3f,
+    pad_b: f32,
 }
 
 const BALL: u32 = 0u;
@@ -44,6 +60,22 @@ fn to_light(light: WedgeLight, p: vec3f) -> vec3f {
 // Of a direction.
 fn from_light(light: WedgeLight, d: vec3f) -> vec3f {
     return vec3f(dot(light.from_light[0].xyz, d), dot(light.from_light[1].xyz, d), dot(light.from_light[2].xyz, d));
+}
+
+// The middle of the picture's pixel that a place in the buffer of shares stands for.
+fn full_pixel(light: WedgeLight, at: vec2f) -> vec2f {
+    let scale = f32(light.scale);
+    return floor(at) * scale + floor(0.5 * scale) + 0.5;
+}
+
+// Where silhouettes are seen from if the light is not split.
+fn middle(light: WedgeLight) -> vec3f {
+    return vec3f(0.0, 0.0, f32(light.parallel));
+}
+
+// The way from a point to a place of the light, or the direction to it.
+fn way_to(light: WedgeLight, place: vec3f, p: vec3f) -> vec3f {
+    return select(place - p, place, light.parallel != 0u);
 }
 
 // The way from a point to the light.

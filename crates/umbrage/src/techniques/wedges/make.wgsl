@@ -6,6 +6,8 @@
 @group(2) @binding(0) var<uniform> light: WedgeLight;
 @group(2) @binding(1) var<storage, read_write> wedges: array<Wedge>;
 @group(2) @binding(2) var<storage, read_write> draw: array<u32, 5>;
+// Of casters, if the light is split.
+@group(2) @binding(3) var<storage, read> anchors: array<Anchor>;
 
 // Wedges that an instance draws, and indices of one.
 const GROUP: u32 = 64u;
@@ -13,6 +15,10 @@ const INDICES: u32 = 24u;
 
 // Depth that is behind everything.
 override FAR: f32 = 0.0;
+// The light is a piece of a disc or a ball.
+override SPLIT: bool = false;
+// Bodies are cut in two.
+override HALVES: bool = false;
 
 // Bodies are larger than wedges by this share, so that rounding cuts nothing off.
 const SLACK: f32 = 1e-3;
@@ -26,8 +32,8 @@ fn place(caster: u32, vertex: u32) -> vec3f {
 fn no_wedge() -> Wedge {
     var wedge: Wedge;
     wedge.weights = vec2f(0.0);
-    for (var i = 0u; i < 6u; i++) {
-        wedge.corners[i] = vec4f(2.0, 2.0, 0.0, 1.0);
+    for (var i = 0u; i < 8u; i++) {
+        wedge.corners[i] = vec4f(4.0, 4.0, 0.0, 1.0);
     }
     return wedge;
 }
@@ -37,12 +43,21 @@ fn everywhere(wedge: ptr<function, Wedge>) {
     for (var i = 0u; i < 4u; i++) {
         (*wedge).planes[i] = vec4f(0.0, 0.0, 0.0, -1.0);
     }
-    (*wedge).corners[5] = vec4f(-1.0, -1.0, FAR, 1.0);
-    (*wedge).corners[4] = vec4f(-1.0, 1.0, FAR, 1.0);
-    (*wedge).corners[2] = vec4f(1.0, 1.0, FAR, 1.0);
-    (*wedge).corners[3] = vec4f(1.0, -1.0, FAR, 1.0);
+    // Larger than the screen, which the last pixels of a small buffer go beyond.
+    (*wedge).corners[5] = vec4f(-2.0, -2.0, FAR, 1.0);
+    (*wedge).corners[4] = vec4f(-2.0, 2.0, FAR, 1.0);
+    (*wedge).corners[2] = vec4f(2.0, 2.0, FAR, 1.0);
+    (*wedge).corners[3] = vec4f(2.0, -2.0, FAR, 1.0);
     (*wedge).corners[0] = (*wedge).corners[2];
     (*wedge).corners[1] = (*wedge).corners[4];
+    undivided(wedge);
+}
+
+// All of the body is its front half.
+fn undivided(wedge: ptr<function, Wedge>) {
+    (*wedge).corners[6] = (*wedge).corners[3];
+    (*wedge).corners[7] = (*wedge).corners[5];
+    (*wedge).front_inside = 2.0;
 }
 
 // Of all n = cos φ axis + sin φ other with n · d ≥ radius for the directions from the light to `ends`, the first and the last φ.
@@ -135,7 +150,24 @@ fn body(a: vec3f, b: vec3f, wedge: ptr<function, Wedge>) -> bool {
     }
     (*wedge).corners[0] = light.clip_from_eye * vec4f(starts[0], 1.0);
     (*wedge).corners[1] = light.clip_from_eye * vec4f(starts[1], 1.0);
+    if HALVES {
+        halve(wedge, array<vec3f, 2>(low, high), starts, sum, end, rays[0]);
+    }
     return true;
+}
+
+// Cuts the body along the plane of the hard shadow.
+fn halve(wedge: ptr<function, Wedge>, across: array<vec3f, 2>, starts: array<vec3f, 2>, sum: vec3f, end: vec4f, front: vec3f) {
+    let normal = (*wedge).plane.xyz;
+    undivided(wedge);
+    if dot(normal, normal) == 0.0 {
+        return;
+    }
+    for (var i = 0u; i < 2u; i++) {
+        let way = from_light(light, ray(across[i], normal, sum));
+        (*wedge).corners[6u + i] = light.clip_from_eye * run(starts[i], way, end);
+    }
+    (*wedge).front_inside = f32(dot(normal, front) > 0.0);
 }
 
 // The side of a box where all rays, two from each start, leave it soonest, as n · p = w. Zero where they do not leave it through one side.
@@ -218,10 +250,15 @@ fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let b = to_light(light, wedge.eye_end);
     wedge.start = a;
     wedge.end = b;
-    let normal = normalize(cross(way_to_light(light, a), b - a));
+    wedge.anchor = Anchor(middle(light), 0.0, vec3f(1.0, 0.0, 0.0), 0.0);
+    if SPLIT {
+        wedge.anchor = anchors[caster];
+    }
+    let seen_from = wedge.anchor.place;
+    let normal = normalize(cross(way_to(light, seen_from, a), b - a));
     // An edge in line with the light, or without length, has no side.
     if all(normal == normal) {
-        wedge.plane = vec4f(normal, select(0.0, dot(normal, a), light.parallel != 0u));
+        wedge.plane = vec4f(normal, dot(normal, select(seen_from, a, light.parallel != 0u)));
     }
     wedge.eye_inside = f32(dot(wedge.plane.xyz, to_light(light, vec3f(0.0))) >= wedge.plane.w);
     let end = casters[caster].end;

@@ -2,8 +2,13 @@
 //!
 //! Sources: Assarsson and Akenine-Möller 2003; SG "A Soft Shadow Volume Algorithm"; PX 4, 6 and 7.2.
 
+mod budget;
+mod draws;
+mod groups;
 mod light;
 mod mask;
+mod options;
+mod piece;
 mod pipelines;
 mod select;
 mod targets;
@@ -15,29 +20,31 @@ use crate::params::{Param, ParamKind};
 use crate::shader::{FULLSCREEN, RECEIVERS, Shader};
 use crate::silhouettes::{Caster, FIND_SHADER};
 use crate::technique::TechniqueInfo;
+use light::Anchor;
 use light::WedgeLight;
 use umbrage_core::LightKinds;
 
 const LIGHT: &str = include_str!("light.wgsl");
 const COVERAGE: &str = include_str!("coverage.wgsl");
 const RECORD: &str = include_str!("record.wgsl");
+const CELL: &str = include_str!("cell.wgsl");
 
 const MAKE_SHADER: Shader = Shader {
     name: "make wedges",
     parts: &[INSTANCES_WGSL, EDGES_WGSL, LIGHT, RECORD, include_str!("make.wgsl")],
-    layouts: &[WedgeLight::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
+    layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
 };
 
 const EYE_SHADER: Shader = Shader {
     name: "shadows of the eye",
     parts: &[INSTANCES_WGSL, EDGES_WGSL, LIGHT, include_str!("eye.wgsl")],
-    layouts: &[WedgeLight::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
+    layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
 };
 
 const DRAW_SHADER: Shader = Shader {
     name: "wedges",
-    parts: &[RECEIVERS, LIGHT, COVERAGE, RECORD, include_str!("draw.wgsl"), include_str!("term_analytic.wgsl")],
-    layouts: &[WedgeLight::LAYOUT, Eye::LAYOUT],
+    parts: &[RECEIVERS, LIGHT, COVERAGE, CELL, RECORD, include_str!("draw.wgsl"), include_str!("term_analytic.wgsl")],
+    layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT, Eye::LAYOUT],
 };
 
 const RESOLVE_SHADER: Shader = Shader {
@@ -46,13 +53,53 @@ const RESOLVE_SHADER: Shader = Shader {
     layouts: &[WedgeLight::LAYOUT, Eye::LAYOUT],
 };
 
+/// What a loop or a caster that was drawn apart comes to.
+const APART_SHADER: Shader = Shader { name: "a loop's shares", parts: &[include_str!("apart.wgsl")], layouts: &[] };
+
+const DEPTH_SHADER: Shader = Shader {
+    name: "depth of wedges",
+    parts: &[FULLSCREEN, RECEIVERS, LIGHT, include_str!("depth.wgsl")],
+    layouts: &[WedgeLight::LAYOUT, Eye::LAYOUT],
+};
+
 const PARAMS: &[Param] = &[
     Param {
-        name: "combine",
-        help: "What becomes of casters that hide the same part of the light: their shares add up, or every point keeps a bit for each sample of \
-               the light, which triangles strike out.",
+        name: "batch",
+        help: "What is drawn at once: all wedges of the light; every caster whose silhouette is one convex loop, and the others as they \
+               are; or one wedge after the other, in two halves.",
         unit: "",
-        kind: ParamKind::Choice { values: &["sum", "bitmask"] },
+        kind: ParamKind::Choice { values: &["all", "per-loop", "per-wedge"] },
+    },
+    Param {
+        name: "combine",
+        help: "What becomes of casters that hide the same part of the light: their shares add up; the largest counts; or every point keeps a bit \
+               for each sample of the light, which triangles strike out.",
+        unit: "",
+        kind: ParamKind::Choice { values: &["sum", "max", "bitmask"] },
+    },
+    Param {
+        name: "cull",
+        help: "Who finds what is in no wedge: the shader, or a stencil mask before it; auto: the mask for one wedge after the other.",
+        unit: "",
+        kind: ParamKind::Choice { values: &["auto", "shader", "stencil"] },
+    },
+    Param {
+        name: "scale",
+        help: "Size of the buffer that shares add up in, against the picture.",
+        unit: "",
+        kind: ParamKind::Choice { values: &["1", "1/2", "1/4"] },
+    },
+    Param {
+        name: "budget-ms",
+        help: "Time on the GPU by which the scale is chosen in every frame; 0 leaves it.",
+        unit: "ms",
+        kind: ParamKind::Float { min: 0.0, max: 1000.0, default: 0.0 },
+    },
+    Param {
+        name: "split-light",
+        help: "Columns and rows that the light is split into, each piece with silhouettes of its own; a line into that many parts.",
+        unit: "",
+        kind: ParamKind::Int { min: 1, max: 3, default: 1 },
     },
     Param {
         name: "samples",
@@ -80,7 +127,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     hard: false,
     params: PARAMS,
     views: &[],
-    shaders: &[FIND_SHADER, MAKE_SHADER, EYE_SHADER, DRAW_SHADER, RESOLVE_SHADER, mask::MASK_SHADER],
+    shaders: &[FIND_SHADER, MAKE_SHADER, EYE_SHADER, DRAW_SHADER, APART_SHADER, DEPTH_SHADER, RESOLVE_SHADER, mask::MASK_SHADER],
     readme: include_str!("README.md"),
-    make: |gpu, settings| Ok(Box::new(technique::Wedges::new(gpu, settings))),
+    make: |gpu, settings| Ok(Box::new(technique::Wedges::new(gpu, settings)?)),
 };

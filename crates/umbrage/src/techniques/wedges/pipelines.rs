@@ -1,12 +1,15 @@
 //! Pipelines that build, count and draw wedges.
 
+use super::APART_SHADER;
+use super::DEPTH_SHADER;
 use super::DRAW_SHADER;
 use super::EYE_SHADER;
 use super::MAKE_SHADER;
 use super::RESOLVE_SHADER;
+use super::draws::Draw;
 use super::light::Face;
 use crate::casters::Edges;
-use crate::fullscreen::{FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, additive, layout, texture};
+use crate::fullscreen::{FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, layout, texture};
 use crate::receivers::Receivers;
 use crate::{gpu::Gpu, visibility::VisibilityTarget};
 
@@ -16,35 +19,50 @@ pub(super) struct Pipelines {
     pub count_layout: wgpu::BindGroupLayout,
     pub draw_layout: wgpu::BindGroupLayout,
     pub resolve_layout: wgpu::BindGroupLayout,
+    pub apart_layout: wgpu::BindGroupLayout,
+    pub depth_layout: wgpu::BindGroupLayout,
     /// Of covered shares.
     pub format: wgpu::TextureFormat,
+    /// Of the sums of a loop, see `draw.wgsl`.
+    pub loop_format: wgpu::TextureFormat,
     pub clamps: bool,
-    pub count: wgpu::ComputePipeline,
-    make: Vec<(bool, wgpu::ComputePipeline)>,
-    draw_module: wgpu::ShaderModule,
-    resolve_module: wgpu::ShaderModule,
     silhouettes: wgpu::BindGroupLayout,
-    drawing: Vec<(Key, wgpu::RenderPipeline)>,
-    resolving: Vec<(Resolve, wgpu::RenderPipeline)>,
+    draw_module: wgpu::ShaderModule,
+    making: Made<Making, wgpu::ComputePipeline>,
+    drawing: Made<Key, wgpu::RenderPipeline>,
+    resolving: Made<Resolve, wgpu::RenderPipeline>,
+    depths: Made<wgpu::TextureFormat, wgpu::RenderPipeline>,
 }
 
-/// What is drawn.
+/// What was made by what it was made for.
+type Made<K, P> = Vec<(K, P)>;
+
+fn find<'a, K: PartialEq, P>(made: &'a Made<K, P>, key: &K) -> Option<&'a P> {
+    made.iter().find(|(k, _)| k == key).map(|(_, pipeline)| pipeline)
+}
+
+/// Compute pipelines.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Draw {
-    /// Sides of hard shadow volumes.
-    Sides,
-    /// Bodies of wedges.
-    Bodies,
+pub(super) enum Making {
+    /// Builds wedges.
+    Wedges {
+        /// Near is 1.
+        reversed: bool,
+        split: bool,
+        halves: bool,
+    },
+    /// Counts the shadows of the eye.
+    EyeCount { split: bool },
 }
 
 /// A drawing pipeline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Key {
     pub draw: Draw,
-    /// Of the receivers' depth where it can be attached, and whether near is 1 in it.
+    /// Of what bodies are compared with, where there is something, and whether near is 1 in it.
     pub depth: Option<(wgpu::TextureFormat, bool)>,
-    pub has_normals: bool,
     pub face: Face,
+    pub split: bool,
 }
 
 /// A pipeline that turns shares into visibility.
@@ -53,72 +71,98 @@ pub(super) struct Resolve {
     pub soft: bool,
     pub has_normals: bool,
     pub face: Face,
+    pub pieces: u32,
+    pub scaled: bool,
+}
+
+fn on(switch: bool) -> f64 {
+    if switch { 1.0 } else { 0.0 }
 }
 
 impl Pipelines {
     pub fn new(gpu: &Gpu, silhouettes: &wgpu::BindGroupLayout) -> Self {
         let compute = wgpu::ShaderStages::COMPUTE;
-        let make_layout = layout(gpu, "make wedges", compute, &[UNIFORM, STORAGE_WRITE, STORAGE_WRITE]);
-        let count_layout = layout(gpu, "shadows of the eye", compute, &[UNIFORM, STORAGE, STORAGE_WRITE]);
-        let both = wgpu::ShaderStages::VERTEX_FRAGMENT;
-        let draw_layout = layout(gpu, "wedges", both, &[UNIFORM, UNIFORM, STORAGE]);
         let fragment = wgpu::ShaderStages::FRAGMENT;
-        let resolve_layout = layout(gpu, "covered shares", fragment, &[UNIFORM, UNIFORM, texture(FLOATS), STORAGE]);
+        let both = wgpu::ShaderStages::VERTEX_FRAGMENT;
+        let layers = wgpu::BindingType::Texture {
+            sample_type: FLOATS,
+            view_dimension: wgpu::TextureViewDimension::D2Array,
+            multisampled: false,
+        };
         // Sums of many small terms.
         let blends = gpu.has(wgpu::Features::FLOAT32_BLENDABLE);
-        let count = compute_pipeline(gpu, &EYE_SHADER.module(gpu), "count", [silhouettes, &count_layout], &[]);
+        use wgpu::TextureFormat as Format;
+        let (format, loop_format) =
+            if blends { (Format::Rg32Float, Format::Rgba32Float) } else { (Format::Rg16Float, Format::Rgba16Float) };
         Self {
-            format: if blends { wgpu::TextureFormat::Rg32Float } else { wgpu::TextureFormat::Rg16Float },
+            make_layout: layout(gpu, "make wedges", compute, &[UNIFORM, STORAGE_WRITE, STORAGE_WRITE, STORAGE]),
+            count_layout: layout(gpu, "shadows of the eye", compute, &[UNIFORM, STORAGE, STORAGE_WRITE, STORAGE]),
+            draw_layout: layout(gpu, "wedges", both, &[UNIFORM, UNIFORM, STORAGE]),
+            resolve_layout: layout(gpu, "covered shares", fragment, &[UNIFORM, UNIFORM, layers, STORAGE, STORAGE]),
+            apart_layout: layout(gpu, "a loop's shares", fragment, &[texture(FLOATS), STORAGE]),
+            depth_layout: layout(gpu, "depth of wedges", fragment, &[UNIFORM]),
+            format,
+            loop_format,
             clamps: gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL),
-            count,
-            make: Vec::new(),
-            draw_module: DRAW_SHADER.module(gpu),
-            resolve_module: RESOLVE_SHADER.module(gpu),
             silhouettes: silhouettes.clone(),
+            draw_module: DRAW_SHADER.module(gpu),
+            making: Vec::new(),
             drawing: Vec::new(),
             resolving: Vec::new(),
-            make_layout,
-            count_layout,
-            draw_layout,
-            resolve_layout,
+            depths: Vec::new(),
         }
     }
 
-    /// Makes the pipeline that builds wedges where it is missing. `reversed`: near is 1.
-    pub fn prepare_make(&mut self, gpu: &Gpu, reversed: bool) {
-        if !self.make.iter().any(|(r, _)| *r == reversed) {
-            let far = [("FAR", if reversed { 0.0 } else { 1.0 })];
-            let groups = [&self.silhouettes, &self.make_layout];
-            let made = compute_pipeline(gpu, &MAKE_SHADER.module(gpu), "make", groups, &far);
-            self.make.push((reversed, made));
+    /// Makes a compute pipeline where it is missing.
+    pub fn prepare_making(&mut self, gpu: &Gpu, key: Making) {
+        if self.making(key).is_some() {
+            return;
         }
+        let made = match key {
+            Making::Wedges { reversed, split, halves } => {
+                let far = if reversed { 0.0 } else { 1.0 };
+                let constants = [("FAR", far), ("SPLIT", on(split)), ("HALVES", on(halves))];
+                self.compute(gpu, &MAKE_SHADER.module(gpu), "make", &self.make_layout, &constants)
+            }
+            Making::EyeCount { split } => {
+                let constants = [("SPLIT", on(split))];
+                self.compute(gpu, &EYE_SHADER.module(gpu), "count", &self.count_layout, &constants)
+            }
+        };
+        self.making.push((key, made));
     }
 
-    pub fn making(&self, reversed: bool) -> Option<&wgpu::ComputePipeline> {
-        self.make.iter().find(|(r, _)| *r == reversed).map(|(_, made)| made)
+    /// One that was prepared.
+    pub fn making(&self, key: Making) -> Option<&wgpu::ComputePipeline> {
+        find(&self.making, &key)
     }
 
     /// Makes a drawing pipeline where it is missing.
     pub fn prepare(&mut self, gpu: &Gpu, key: Key) {
-        if !self.drawing.iter().any(|(k, _)| *k == key) {
-            self.drawing.push((key, self.draw(gpu, key)));
+        if self.drawing(key).is_none() {
+            let made = if key.draw.is_apart() { self.apart(gpu, key) } else { self.draw(gpu, key) };
+            self.drawing.push((key, made));
         }
     }
 
     /// One that was prepared.
     pub fn drawing(&self, key: Key) -> Option<&wgpu::RenderPipeline> {
-        self.drawing.iter().find(|(k, _)| *k == key).map(|(_, made)| made)
+        find(&self.drawing, &key)
     }
 
     /// Makes the pipeline that turns shares into visibility where it is missing.
     pub fn prepare_resolve(&mut self, gpu: &Gpu, key: Resolve) {
         if self.resolving(key).is_none() {
-            let on = |switch: bool| if switch { 1.0 } else { 0.0 };
-            let face = f64::from(key.face as u32);
-            let constants = [("SOFT", on(key.soft)), ("HAS_NORMALS", on(key.has_normals)), ("FACE", face)];
+            let constants = [
+                ("SOFT", on(key.soft)),
+                ("HAS_NORMALS", on(key.has_normals)),
+                ("FACE", f64::from(key.face as u32)),
+                ("PIECES", f64::from(key.pieces)),
+                ("SCALED", on(key.scaled)),
+            ];
             let made = Fullscreen {
                 label: "wedge visibility",
-                module: &self.resolve_module,
+                module: &RESOLVE_SHADER.module(gpu),
                 entry: "resolve",
                 groups: &[&Receivers::layout(gpu), &self.resolve_layout],
                 target: VisibilityTarget::FORMAT.into(),
@@ -130,52 +174,78 @@ impl Pipelines {
 
     /// One that was prepared.
     pub fn resolving(&self, key: Resolve) -> Option<&wgpu::RenderPipeline> {
-        self.resolving.iter().find(|(k, _)| *k == key).map(|(_, made)| made)
+        find(&self.resolving, &key)
+    }
+
+    /// Makes the pipeline that copies depth where it is missing.
+    pub fn prepare_depth(&mut self, gpu: &Gpu, format: wgpu::TextureFormat) {
+        if self.depth(format).is_none() {
+            let module = DEPTH_SHADER.module(gpu);
+            let groups = [&Receivers::layout(gpu), &self.depth_layout];
+            let depth = wgpu::DepthStencilState {
+                format,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(wgpu::CompareFunction::Always),
+                stencil: Default::default(),
+                bias: Default::default(),
+            };
+            let stages = Stages::new(&module, "fullscreen", "copy_depth");
+            self.depths.push((format, stages.pipeline(gpu, &groups, Some(depth), None)));
+        }
+    }
+
+    /// One that was prepared.
+    pub fn depth(&self, format: wgpu::TextureFormat) -> Option<&wgpu::RenderPipeline> {
+        find(&self.depths, &format)
     }
 
     fn draw(&self, gpu: &Gpu, key: Key) -> wgpu::RenderPipeline {
-        let bodies = key.draw == Draw::Bodies;
+        let how = key.draw.how();
+        let vertex_constants = [("CLAMPS", on(self.clamps))];
+        let fragment_constants = [("FACE", f64::from(key.face as u32)), ("SPLIT", on(key.split))];
+        let stages = Stages {
+            vertex_constants: if how.is_body { &vertex_constants } else { &[] },
+            fragment_constants: if how.shares { &fragment_constants } else { &[] },
+            cull_mode: how.cull_mode,
+            unclipped_depth: self.clamps && how.is_body,
+            ..Stages::new(&self.draw_module, how.vertex, how.fragment)
+        };
+        let depth = key.depth.map(|(format, reversed)| wgpu::DepthStencilState {
+            format,
+            depth_write_enabled: Some(false),
+            depth_compare: Some(compare(how.is_body && self.clamps, reversed)),
+            stencil: how.stencil.clone(),
+            bias: Default::default(),
+        });
+        let groups = [&Receivers::layout(gpu), &self.draw_layout];
+        stages.pipeline(gpu, &groups, depth, Some(how.target(self)))
+    }
+
+    fn apart(&self, gpu: &Gpu, key: Key) -> wgpu::RenderPipeline {
+        let how = key.draw.how();
+        let module = APART_SHADER.module(gpu);
+        let stages = Stages::new(&module, how.vertex, how.fragment);
+        stages.pipeline(gpu, &[&self.apart_layout], None, Some(how.target(self)))
+    }
+
+    fn compute(
+        &self,
+        gpu: &Gpu,
+        module: &wgpu::ShaderModule,
+        entry: &str,
+        own: &wgpu::BindGroupLayout,
+        constants: &[(&str, f64)],
+    ) -> wgpu::ComputePipeline {
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &[Some(&Receivers::layout(gpu)), Some(&self.draw_layout)],
+            bind_group_layouts: &[Some(&self.silhouettes), Some(&Edges::draw_layout(gpu)), Some(own)],
             ..Default::default()
         });
-        let on = |switch: bool| if switch { 1.0 } else { 0.0 };
-        let vertex_constants = [("CLAMPS", on(self.clamps))];
-        let fragment_constants = [("FACE", f64::from(key.face as u32))];
-        let constants = |constants, uses: bool| wgpu::PipelineCompilationOptions {
-            constants: if uses { constants } else { &[] },
-            ..Default::default()
-        };
-        let target = [Some(additive(self.format))];
-        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(if bodies { "wedges" } else { "sides" }),
+        gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(entry),
             layout: Some(&layout),
-            vertex: wgpu::VertexState {
-                module: &self.draw_module,
-                entry_point: Some(if bodies { "body" } else { "side" }),
-                compilation_options: constants(&vertex_constants, bodies),
-                buffers: &[],
-            },
-            primitive: wgpu::PrimitiveState {
-                cull_mode: bodies.then_some(wgpu::Face::Front),
-                unclipped_depth: self.clamps && bodies,
-                ..Default::default()
-            },
-            depth_stencil: key.depth.map(|(format, reversed)| wgpu::DepthStencilState {
-                format,
-                depth_write_enabled: Some(false),
-                depth_compare: Some(compare(bodies && self.clamps, reversed)),
-                stencil: Default::default(),
-                bias: Default::default(),
-            }),
-            multisample: Default::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &self.draw_module,
-                entry_point: Some(if bodies { "add_wedge" } else { "add_side" }),
-                compilation_options: constants(&fragment_constants, bodies),
-                targets: &target,
-            }),
-            multiview_mask: None,
+            module,
+            entry_point: Some(entry),
+            compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
             cache: None,
         })
     }
@@ -190,23 +260,62 @@ fn compare(tests: bool, reversed: bool) -> wgpu::CompareFunction {
     }
 }
 
-fn compute_pipeline(
-    gpu: &Gpu,
-    module: &wgpu::ShaderModule,
-    entry: &str,
-    [silhouettes, own]: [&wgpu::BindGroupLayout; 2],
-    constants: &[(&str, f64)],
-) -> wgpu::ComputePipeline {
-    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        bind_group_layouts: &[Some(silhouettes), Some(&Edges::draw_layout(gpu)), Some(own)],
-        ..Default::default()
-    });
-    gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some(entry),
-        layout: Some(&layout),
-        module,
-        entry_point: Some(entry),
-        compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
-        cache: None,
-    })
+/// Shaders of a render pipeline and what comes between them.
+struct Stages<'a> {
+    module: &'a wgpu::ShaderModule,
+    vertex: &'a str,
+    fragment: &'a str,
+    vertex_constants: &'a [(&'a str, f64)],
+    fragment_constants: &'a [(&'a str, f64)],
+    cull_mode: Option<wgpu::Face>,
+    unclipped_depth: bool,
+}
+
+impl<'a> Stages<'a> {
+    fn new(module: &'a wgpu::ShaderModule, vertex: &'a str, fragment: &'a str) -> Self {
+        let (vertex_constants, fragment_constants): (&[_], &[_]) = (&[], &[]);
+        let (cull_mode, unclipped_depth) = (None, false);
+        Self { module, vertex, fragment, vertex_constants, fragment_constants, cull_mode, unclipped_depth }
+    }
+
+    fn pipeline(
+        &self,
+        gpu: &Gpu,
+        groups: &[&wgpu::BindGroupLayout],
+        depth_stencil: Option<wgpu::DepthStencilState>,
+        target: Option<wgpu::ColorTargetState>,
+    ) -> wgpu::RenderPipeline {
+        let groups: Vec<_> = groups.iter().map(|g| Some(*g)).collect();
+        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            bind_group_layouts: &groups,
+            ..Default::default()
+        });
+        let options = |constants| wgpu::PipelineCompilationOptions { constants, ..Default::default() };
+        let targets: Vec<_> = target.into_iter().map(Some).collect();
+        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(self.fragment),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: self.module,
+                entry_point: Some(self.vertex),
+                compilation_options: options(self.vertex_constants),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState {
+                cull_mode: self.cull_mode,
+                unclipped_depth: self.unclipped_depth,
+                ..Default::default()
+            },
+            depth_stencil,
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: self.module,
+                entry_point: Some(self.fragment),
+                compilation_options: options(self.fragment_constants),
+                targets: &targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
 }

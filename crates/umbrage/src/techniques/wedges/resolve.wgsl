@@ -2,9 +2,17 @@
 
 @group(1) @binding(0) var<uniform> light: WedgeLight;
 @group(1) @binding(1) var<uniform> eye: Eye;
-@group(1) @binding(2) var covered: texture_2d<f32>;
-// How many shadows the eye is in, see `Wedge::weights`.
-@group(1) @binding(3) var<storage, read> eye_count: vec2u;
+// A layer for each piece of the light.
+@group(1) @binding(2) var covered: texture_2d_array<f32>;
+// How many shadows of each piece the eye is in, see `Wedge::weights`.
+@group(1) @binding(3) var<storage, read> eye_count: array<vec2u>;
+// Shares of the light that its pieces are.
+@group(1) @binding(4) var<storage, read> weights: array<f32>;
+
+// Of the light.
+override PIECES: u32 = 1u;
+// The buffer of shares is smaller than the picture.
+override SCALED: bool = false;
 
 override SOFT: bool = true;
 override FACE: u32 = BALL;
@@ -46,17 +54,64 @@ fn below_horizon(p: vec3f, normal: vec3f) -> f32 {
     return beyond_on_square(vec3f(normal.xy, height));
 }
 
+// What casters cover, of a place in the buffer of shares.
+fn covered_at(at: vec2i) -> f32 {
+    var sum = 0.0;
+    for (var i = 0u; i < PIECES; i++) {
+        // Both sides of a body cover the same, but for holes.
+        let sides = vec2f(eye_count[i]) + textureLoad(covered, at, i, 0).xy;
+        sum += weights[i] * clamp(max(sides.x, sides.y), 0.0, 1.0);
+    }
+    return sum;
+}
+
+// Between places of the smaller buffer those count that lie in the surface's own plane; where none does, the one that is nearest to it.
+fn upsampled(pixel: vec2f, p: vec3f, normal: vec3f) -> f32 {
+    let scale = f32(light.scale);
+    let last = vec2i(textureDimensions(covered)) - 1;
+    let place = (floor(pixel) - floor(0.5 * scale)) / scale;
+    let first = floor(place);
+    let part = place - first;
+    let n = normalize(normal);
+    var sum = vec2f(0.0);
+    var nearest = vec2f(0.0, 1e30);
+    for (var i = 0u; i < 4u; i++) {
+        let corner = vec2f(vec2u(i & 1u, i >> 1u));
+        let at = clamp(vec2i(first + corner), vec2i(0), last);
+        let full = full_pixel(light, vec2f(at));
+        let depth = textureLoad(receiver_depth, vec2i(full), 0);
+        if depth == eye.background_depth {
+            continue;
+        }
+        let way = position_eye(eye, full, depth) - p;
+        // From the plane, against what a surface bends over that way.
+        let off = abs(dot(n, way)) / (0.05 * length(way) + 1e-4 * length(p));
+        let share = covered_at(at);
+        let sides = mix(1.0 - part, part, corner);
+        let weight = sides.x * sides.y * max(1.0 - off, 0.0);
+        sum += weight * vec2f(share, 1.0);
+        if off < nearest.y {
+            nearest = vec2f(share, off);
+        }
+    }
+    return select(nearest.x, sum.x / sum.y, sum.y > 1e-3);
+}
+
 @fragment
 fn resolve(@builtin(position) at: vec4f) -> @location(0) f32 {
     let depth = textureLoad(receiver_depth, vec2i(at.xy), 0);
     if depth == eye.background_depth {
         return 1.0;
     }
-    // Both sides of a body cover the same, but for holes.
-    let sides = vec2f(eye_count) + textureLoad(covered, vec2i(at.xy), 0).xy;
-    var share = max(sides.x, sides.y);
+    let here = position_eye(eye, at.xy, depth);
+    let surface = surface(eye, at.xy, depth);
+    var share = 0.0;
+    if SCALED {
+        share = upsampled(at.xy, here, surface.normal);
+    } else {
+        share = covered_at(vec2i(at.xy));
+    }
     if SOFT {
-        let surface = surface(eye, at.xy, depth);
         let n = surface.normal;
         // A plane's normal goes by the inverse transposed.
         let back = light.from_light;
@@ -65,7 +120,7 @@ fn resolve(@builtin(position) at: vec4f) -> @location(0) f32 {
             n.x * back[0].y + n.y * back[1].y + n.z * back[2].y,
             n.x * back[0].z + n.y * back[1].z + n.z * back[2].z,
         );
-        let p = to_light(light, position_eye(eye, at.xy, depth));
+        let p = to_light(light, here);
         share = max(share, select(0.0, below_horizon(p, normal), surface.casts));
     }
     return 1.0 - clamp(share, 0.0, 1.0);

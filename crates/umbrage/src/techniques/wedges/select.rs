@@ -1,5 +1,6 @@
 //! Which casters throw shadows into the view, and which of them may shadow the eye.
 
+use super::light::Anchor;
 use super::light::Form;
 use crate::casters::{self, Casters, Edges};
 use crate::silhouettes::Throw;
@@ -23,8 +24,11 @@ const CHUNK: u32 = 64;
 #[derive(Default)]
 pub(super) struct Selection {
     pub throws: Vec<Throw>,
-    /// For chunks of triangles that may be between eye and light the number of the throw and their first triangle.
-    pub eye_chunks: Vec<[u32; 2]>,
+    /// Of each throw where its silhouette is seen from.
+    pub anchors: Vec<Anchor>,
+    /// For chunks of triangles that may be between eye and light the number of the throw, their first triangle and where they
+    /// count, see `eye.wgsl`.
+    pub eye_chunks: Vec<[u32; 4]>,
     found: Vec<u32>,
 }
 
@@ -32,6 +36,7 @@ impl Selection {
     /// Chooses.
     pub fn choose(&mut self, gpu: &Gpu, view: &View<'_>, form: &Form, rounding: f64) -> Result<(), Error> {
         self.throws.clear();
+        self.anchors.clear();
         self.eye_chunks.clear();
         self.found.clear();
         let casters = view.casters;
@@ -57,21 +62,25 @@ impl Selection {
             }
             let mesh = edges.of_mesh(placed.mesh);
             if !mesh.adjacency.edges.is_empty() {
-                let end = shadow_end(&seen, &placed.bounds, form.center);
-                self.throws.push(throw(place, &mesh.adjacency, end));
+                let (anchor, axis) = form.anchor(placed.bounds.center());
+                let light = form.in_world(anchor);
+                let end = shadow_end(&seen, &placed.bounds, light);
+                self.throws.push(throw(place, light, &mesh.adjacency, end));
+                let [place, axis] = [anchor, axis].map(|v| v.as_vec3().to_array());
+                self.anchors.push(Anchor { place, axis, ..Anchor::default() });
             }
         }
-        self.search_eye(casters, edges, view, form.center, rounding);
+        self.search_eye(casters, edges, view, rounding);
         Ok(())
     }
 
-    fn search_eye(&mut self, casters: &Casters, edges: &Edges, view: &View<'_>, center: DVec4, rounding: f64) {
+    fn search_eye(&mut self, casters: &Casters, edges: &Edges, view: &View<'_>, rounding: f64) {
         for (number, throw) in (0..).zip(&self.throws) {
             let placed = &casters.placed()[throw.place as usize];
             let margin = 8.0 * rounding * placed.bounds.largest_coordinate().max(view.camera.eye.abs().max_element());
-            if segment_touches(view.camera.eye, center, &placed.bounds, margin) {
+            if segment_touches(view.camera.eye, throw.light, &placed.bounds, margin) {
                 let triangles = edges.of_mesh(placed.mesh).triangle_count;
-                self.eye_chunks.extend((0..triangles.div_ceil(CHUNK)).map(|i| [number, i * CHUNK]));
+                self.eye_chunks.extend((0..triangles.div_ceil(CHUNK)).map(|i| [number, i * CHUNK, 0, 0]));
             }
         }
     }
@@ -79,9 +88,10 @@ impl Selection {
 
 /// A closed body throws the shadow of its far side: both sides would cover the light twice. Of one with holes both count apart. Every
 /// other mesh is a sheet, which covers the light once wherever it is.
-fn throw(place: u32, mesh: &Adjacency, end: DVec4) -> Throw {
+fn throw(place: u32, light: DVec4, mesh: &Adjacency, end: DVec4) -> Throw {
     Throw {
         place,
+        light,
         rule: if mesh.is_closed { Rule::Away } else { Rule::All },
         is_body: !mesh.is_closed && mesh.open_share <= MOST_OPEN && mesh.flatness <= MOST_FLAT,
         z_fail: false,

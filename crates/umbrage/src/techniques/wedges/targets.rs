@@ -1,18 +1,31 @@
 //! Buffers and textures of a light's wedges.
 
+use super::light::Anchor;
 use super::light::WedgeLight;
+use super::light::scaled;
 use super::pipelines::Pipelines;
 use crate::depth_maps::Eye;
 use crate::fullscreen::{bind, target_texture};
-use crate::{error::Error, gpu::Gpu, receivers::Receivers};
+use crate::{error::Error, gpu::Gpu, receivers::Receivers, view::View};
 
 /// Bytes of a record, see `record.wgsl`.
-const RECORD: u64 = 288;
+const RECORD: u64 = 352;
 
 /// Wedges that an instance draws, see `draw.wgsl`.
 pub(super) const GROUP: u32 = 64;
 
-/// What grows with casters.
+/// Numbers of things that buffers have to hold.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Needs {
+    pub wedges: u32,
+    pub eye_chunks: u32,
+    /// See `eye.wgsl`.
+    pub slots: u32,
+    /// Of casters, if the light is split.
+    pub anchors: u32,
+}
+
+/// What grows with casters, of one piece of a light.
 pub(super) struct Buffers {
     pub light: wgpu::Buffer,
     pub eye: wgpu::Buffer,
@@ -21,16 +34,18 @@ pub(super) struct Buffers {
     pub bodies: wgpu::Buffer,
     pub eye_chunks: wgpu::Buffer,
     pub eye_count: wgpu::Buffer,
+    pub anchors: wgpu::Buffer,
     pub make: wgpu::BindGroup,
     pub count: wgpu::BindGroup,
     pub draw: wgpu::BindGroup,
+    pub depth: wgpu::BindGroup,
 }
 
 impl Buffers {
-    pub fn new(gpu: &Gpu, pipelines: &Pipelines, wedges: u32, eye_chunks: u32) -> Result<Self, Error> {
+    pub fn new(gpu: &Gpu, pipelines: &Pipelines, needs: &Needs) -> Result<Self, Error> {
         use wgpu::BufferUsages as Usage;
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
-        let size = u64::from(wedges.next_multiple_of(GROUP)) * RECORD;
+        let size = u64::from(needs.wedges.next_multiple_of(GROUP)) * RECORD;
         if size > limit {
             return Err(Error::Size { what: "the wedges of a light".into(), size, limit });
         }
@@ -47,65 +62,147 @@ impl Buffers {
         // Half as much again, so that a moving camera does not make it grow all the time.
         let wedges = buffer("wedges", (size + size / 2).clamp(RECORD * 64, limit).next_multiple_of(16), Usage::STORAGE);
         let bodies = buffer("draw of wedges", 20, Usage::STORAGE | Usage::INDIRECT);
-        let eye_chunks =
-            buffer("chunks before the eye", u64::from(eye_chunks.next_power_of_two()).max(32) * 8, Usage::STORAGE);
-        let eye_count = buffer("shadows of the eye", 8, Usage::STORAGE);
+        let some = |label, number: u32, bytes: usize, usage| {
+            buffer(label, u64::from(number.max(1).next_power_of_two()) * bytes as u64, Usage::STORAGE | usage)
+        };
+        let eye_chunks = some("chunks before the eye", needs.eye_chunks, 16, Usage::empty());
+        let eye_count = some("shadows of the eye", needs.slots, 8, Usage::COPY_SRC);
+        let anchors = some("where silhouettes are seen from", needs.anchors, size_of::<Anchor>(), Usage::empty());
         let all = |buffers: &[&wgpu::Buffer], layout| {
             let entries: Vec<_> = buffers.iter().map(|b| b.as_entire_binding()).collect();
             bind(gpu, "wedges", layout, &entries)
         };
         Ok(Self {
-            make: all(&[&light, &wedges, &bodies], &pipelines.make_layout),
-            count: all(&[&light, &eye_chunks, &eye_count], &pipelines.count_layout),
+            make: all(&[&light, &wedges, &bodies, &anchors], &pipelines.make_layout),
+            count: all(&[&light, &eye_chunks, &eye_count, &anchors], &pipelines.count_layout),
             draw: all(&[&light, &eye, &wedges], &pipelines.draw_layout),
+            depth: all(&[&light], &pipelines.depth_layout),
             light,
             eye,
             wedges,
             bodies,
             eye_chunks,
             eye_count,
+            anchors,
         })
     }
 
-    pub fn hold(&self, wedges: u32, eye_chunks: u32) -> bool {
-        self.wedges.size() >= u64::from(wedges.next_multiple_of(GROUP)) * RECORD
-            && self.eye_chunks.size() >= u64::from(eye_chunks) * 8
+    pub fn hold(&self, needs: &Needs) -> bool {
+        self.wedges.size() >= u64::from(needs.wedges.next_multiple_of(GROUP)) * RECORD
+            && self.eye_chunks.size() >= u64::from(needs.eye_chunks) * 16
+            && self.eye_count.size() >= u64::from(needs.slots) * 8
+            && self.anchors.size() >= u64::from(needs.anchors) * size_of::<Anchor>() as u64
     }
 
     pub fn bytes(&self) -> u64 {
-        [&self.light, &self.eye, &self.wedges, &self.bodies, &self.eye_chunks, &self.eye_count]
-            .map(|b| b.size())
-            .iter()
-            .sum()
+        let all =
+            [&self.light, &self.eye, &self.wedges, &self.bodies, &self.eye_chunks, &self.eye_count, &self.anchors];
+        all.map(|b| b.size()).iter().sum()
     }
+}
+
+/// What resolving reads of a light as a whole.
+pub(super) struct Whole {
+    pub light: wgpu::Buffer,
+    pub eye: wgpu::Buffer,
+    /// Shadows of the eye under each piece.
+    pub eye_counts: wgpu::Buffer,
+    /// Shares of the light that pieces are.
+    pub weights: wgpu::Buffer,
+}
+
+impl Whole {
+    pub fn new(gpu: &Gpu) -> Self {
+        let uniform = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let storage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+        Self {
+            light: gpu.buffer("light", &[WedgeLight::default()], uniform),
+            eye: gpu.buffer("eye", &[Eye::default()], uniform),
+            eye_counts: gpu.buffer("shadows of the eye", &[0_u32; 2 * MOST_PIECES], storage),
+            weights: gpu.buffer("shares of pieces", &[0_f32; MOST_PIECES], storage),
+        }
+    }
+}
+
+/// Pieces of a light at most.
+pub(super) const MOST_PIECES: usize = 9;
+
+/// What a [`Target`] is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct TargetKey {
+    /// Of the picture.
+    pub size: (u32, u32),
+    pub scale: u32,
+    pub pieces: u32,
+    /// Stencil masks are drawn.
+    pub stencil: bool,
+    /// Loops or casters are drawn apart, into this.
+    pub apart: Option<wgpu::TextureFormat>,
+    /// The receivers' depth is copied, since masks go into its stencil or it is not of this size.
+    pub copies_depth: bool,
 }
 
 /// Where covered shares add up.
 pub(super) struct Target {
-    pub size: (u32, u32),
-    pub view: wgpu::TextureView,
+    pub key: TargetKey,
+    /// Of each piece.
+    pub layers: Vec<wgpu::TextureView>,
     pub resolve: wgpu::BindGroup,
+    /// Where the sums of a loop or a caster add up.
+    pub apart: Option<wgpu::TextureView>,
+    /// The receivers' depth at this scale, and with stencil if masks are drawn.
+    pub own_depth: Option<wgpu::TextureView>,
     bytes: u64,
 }
 
 impl Target {
-    /// Of `format`, read together with `buffers`.
-    pub fn new(gpu: &Gpu, pipelines: &Pipelines, size: (u32, u32), buffers: &Buffers) -> Self {
-        let format = pipelines.format;
-        let view = target_texture(gpu, "covered shares", size, 1, format).create_view(&Default::default());
+    /// Read together with `whole`.
+    pub fn new(gpu: &Gpu, pipelines: &Pipelines, key: TargetKey, whole: &Whole) -> Self {
+        let size = scaled(key.size, key.scale);
+        let texture = target_texture(gpu, "covered shares", size, key.pieces, pipelines.format);
+        let layer = |i| {
+            texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2),
+                base_array_layer: i,
+                array_layer_count: Some(1),
+                ..Default::default()
+            })
+        };
+        let all = texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        });
         let resolve = bind(
             gpu,
             "covered shares",
             &pipelines.resolve_layout,
             &[
-                buffers.light.as_entire_binding(),
-                buffers.eye.as_entire_binding(),
-                wgpu::BindingResource::TextureView(&view),
-                buffers.eye_count.as_entire_binding(),
+                whole.light.as_entire_binding(),
+                whole.eye.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&all),
+                whole.eye_counts.as_entire_binding(),
+                whole.weights.as_entire_binding(),
             ],
         );
-        let pixel = u64::from(format.block_copy_size(None).unwrap_or(4));
-        Self { size, view, resolve, bytes: u64::from(size.0) * u64::from(size.1) * pixel }
+        let pixels = u64::from(size.0) * u64::from(size.1);
+        // A stencil aspect has no copy size of its own with the depth: 8 bytes a pixel are what drivers take.
+        let bytes_of = |format: wgpu::TextureFormat| pixels * u64::from(format.block_copy_size(None).unwrap_or(8));
+        let view = |label, format| target_texture(gpu, label, size, 1, format).create_view(&Default::default());
+        let depth_format = key.copies_depth.then(|| own_depth_format(gpu, key.stencil));
+        let shares = u64::from(key.pieces) * bytes_of(pipelines.format);
+        Self {
+            layers: (0..key.pieces).map(layer).collect(),
+            resolve,
+            apart: key.apart.map(|format| view("shares of a loop", format)),
+            own_depth: depth_format.map(|format| view("depth of wedges", format)),
+            bytes: shares + [key.apart, depth_format].into_iter().flatten().map(bytes_of).sum::<u64>(),
+            key,
+        }
+    }
+
+    /// What bodies are compared with, where there is something.
+    pub fn depth<'a>(&'a self, view: &View<'a>) -> Option<&'a wgpu::TextureView> {
+        self.own_depth.as_ref().or_else(|| lent_depth(view.receivers))
     }
 
     pub fn bytes(&self) -> u64 {
@@ -113,8 +210,16 @@ impl Target {
     }
 }
 
+fn own_depth_format(gpu: &Gpu, stencil: bool) -> wgpu::TextureFormat {
+    match stencil {
+        false => wgpu::TextureFormat::Depth32Float,
+        true if gpu.has(wgpu::Features::DEPTH32FLOAT_STENCIL8) => wgpu::TextureFormat::Depth32FloatStencil8,
+        true => wgpu::TextureFormat::Depth24PlusStencil8,
+    }
+}
+
 /// The receivers' own depth buffer where wedges can be compared with it.
-pub(super) fn lent_depth(receivers: &Receivers) -> Option<&wgpu::TextureView> {
+fn lent_depth(receivers: &Receivers) -> Option<&wgpu::TextureView> {
     if let Some(both) = &receivers.stencil {
         return Some(both);
     }

@@ -1,161 +1,249 @@
 //! A frame: choose casters, find silhouettes, build wedges, add up what they cover, resolve.
 
-use super::light::{Face, Form};
+use super::budget::Budget;
+use super::light::Face;
+use super::light::Form;
+use super::light::Frame;
 use super::mask::Mask;
-use super::pipelines::{Draw, Key, Pipelines, Resolve};
+use super::options::Combine;
+use super::options::Options;
+use super::piece::Piece;
+use super::piece::ROUNDING;
+use super::piece::Recording;
+use super::pipelines::Pipelines;
+use super::pipelines::Resolve;
 use super::select::Selection;
-use super::targets::{Buffers, GROUP, Target, lent_depth};
+use super::targets::Buffers;
+use super::targets::GROUP;
+use super::targets::Target;
+use super::targets::TargetKey;
+use super::targets::Whole;
 use crate::casters::Edges;
 use crate::depth_maps::Eye;
-use crate::fullscreen::attachment;
+use crate::fullscreen::bind;
 use crate::params::Settings;
-use crate::silhouettes::{Extrude, Part, Silhouettes, Style};
+use crate::silhouettes::Part;
 use crate::technique::{Stats, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
 use umbrage_core::LightShape;
 use umbrage_core::glam::DVec3;
 
 pub(super) struct Wedges {
-    point_radius: f64,
-    silhouettes: Silhouettes,
-    pipelines: Pipelines,
-    selection: Selection,
+    options: Options,
+    pipelines: Option<Pipelines>,
     body_indices: wgpu::Buffer,
-    buffers: Option<Buffers>,
-    target: Option<Target>,
+    whole: Whole,
     form: Option<Form>,
-    casting: u32,
-    draws: u32,
+    pieces: Vec<Piece>,
+    /// One for each scale that may come up.
+    targets: Vec<Target>,
+    /// Reads what a loop or a caster came to, with what it was made of.
+    apart: Vec<(wgpu::TextureView, wgpu::Buffer, wgpu::BindGroup)>,
+    budget: Budget,
     /// In place of wedges: for all lights, or for pictures, whose shares don't go by area.
     mask: Option<Mask>,
-    masks_all: bool,
-    samples: u32,
+    mask_selection: Selection,
+    casting: u32,
+    draws: u32,
 }
-
-/// Workgroups in a row, the most that every adapter allows.
-const ROW: u32 = 65_535;
-
-/// A few roundings of single precision.
-const ROUNDING: f64 = 1e-6;
 
 /// Of the six corners of a body the triangles of its far face, front, back and both ends, counter-clockwise from outside.
 const FACES: [u16; 24] = [5, 4, 2, 5, 2, 3, 1, 0, 2, 1, 2, 4, 0, 1, 5, 0, 5, 3, 0, 3, 2, 1, 4, 5];
 
 impl Wedges {
-    pub fn new(gpu: &Gpu, settings: &Settings) -> Self {
-        let silhouettes = Silhouettes::new(gpu, Extrude::Compute);
+    pub fn new(gpu: &Gpu, settings: &Settings) -> Result<Self, Error> {
+        let options = Options::new(gpu, settings)?;
         let indices: Vec<u16> = (0..GROUP as u16).flat_map(|i| FACES.map(|corner| i * 6 + corner)).collect();
-        Self {
-            point_radius: settings.float("radius"),
-            pipelines: Pipelines::new(gpu, silhouettes.layout()),
-            silhouettes,
-            selection: Selection::default(),
+        Ok(Self {
+            pipelines: None,
             body_indices: gpu.buffer("corners of wedges", &indices, wgpu::BufferUsages::INDEX),
-            buffers: None,
-            target: None,
+            whole: Whole::new(gpu),
             form: None,
+            pieces: Vec::new(),
+            targets: Vec::new(),
+            apart: Vec::new(),
+            budget: Budget::new(options.budget_ms, options.scale),
+            mask: None,
+            mask_selection: Selection::default(),
             casting: 0,
             draws: 0,
-            mask: None,
-            masks_all: settings.choice("combine") == "bitmask",
-            samples: settings.int("samples") as u32,
-        }
+            options,
+        })
     }
 
-    fn key(view: &View<'_>, form: &Form, draw: Draw) -> Key {
-        let depth = lent_depth(view.receivers).map(|d| (d.texture().format(), is_reversed(view)));
-        Key { draw, depth, has_normals: view.receivers.has_normals, face: form.face }
-    }
-
+    /// Whether the light is drawn as samples and not as wedges.
     fn is_masked(&self, form: &Form) -> bool {
-        self.masks_all || form.face == Face::Picture
+        self.options.combine == Combine::Bitmask || form.face == Face::Picture
     }
 
-    fn resolve_key(view: &View<'_>, form: &Form) -> Resolve {
-        Resolve { soft: !form.is_point(), has_normals: view.receivers.has_normals, face: form.face }
+    fn is_lit(&self) -> bool {
+        let masked = self.form.is_some_and(|form| self.is_masked(&form));
+        let thrown = |piece: &Piece| !piece.selection.throws.is_empty();
+        if masked { self.mask_selection.throws.is_empty() } else { !self.pieces.iter().any(thrown) }
+    }
+
+    /// Cuts the light into its pieces, and chooses casters for each.
+    fn choose(&mut self, gpu: &Gpu, view: &View<'_>, form: &Form) -> Result<(), Error> {
+        let forms = form.pieces(self.options.split);
+        self.pieces.truncate(forms.len());
+        for (i, form) in forms.into_iter().enumerate() {
+            match self.pieces.get_mut(i) {
+                Some(piece) => piece.form = form,
+                None => self.pieces.push(Piece::new(gpu, form, &self.options)),
+            }
+            let piece = &mut self.pieces[i];
+            piece.selection.choose(gpu, view, &piece.form, ROUNDING)?;
+        }
+        Ok(())
     }
 
     /// Makes room and pipelines.
     fn make_ready(&mut self, gpu: &Gpu, view: &View<'_>, form: &Form) -> Result<(), Error> {
-        let style = Style { weighted: true, quads: true };
-        let projection = (&view.camera.clip_from_world(), is_reversed(view));
-        self.silhouettes.prepare(gpu, view.casters, projection, form.center, &self.selection.throws, style)?;
-        let (wedges, chunks) = (self.silhouettes.room(Part::PassSides), self.selection.eye_chunks.len() as u32);
-        if self.buffers.as_ref().is_none_or(|b| !b.hold(wedges, chunks)) {
-            self.buffers = Some(Buffers::new(gpu, &self.pipelines, wedges, chunks)?);
-            self.target = None;
+        let Some(layout) = self.pieces.first().map(|p| p.silhouettes.layout()) else { return Ok(()) };
+        let pipelines = self.pipelines.get_or_insert_with(|| Pipelines::new(gpu, layout));
+        for piece in &mut self.pieces {
+            piece.prepare(gpu, view, pipelines, &self.options)?;
         }
-        if let Some(buffers) = &self.buffers
-            && self.target.as_ref().is_none_or(|t| t.size != view.receivers.size)
-        {
-            self.target = Some(Target::new(gpu, &self.pipelines, view.receivers.size, buffers));
+        let scales = self.options.scales();
+        self.targets.truncate(scales.len());
+        for (i, scale) in scales.iter().enumerate() {
+            let scale = effective(view.receivers.size, *scale);
+            let key = TargetKey {
+                size: view.receivers.size,
+                scale,
+                pieces: self.pieces.len() as u32,
+                stencil: self.options.stencil,
+                apart: self.options.apart_format(pipelines),
+                copies_depth: self.options.stencil || scale > 1,
+            };
+            if self.targets.get(i).is_none_or(|t| t.key != key) {
+                self.targets.truncate(i);
+                self.targets.push(Target::new(gpu, pipelines, key, &self.whole));
+            }
+            prepare_pipelines(gpu, view, form, pipelines, &self.targets[i], &self.pieces, &self.options);
         }
-        self.pipelines.prepare_make(gpu, is_reversed(view));
-        for draw in [Draw::Sides, Draw::Bodies] {
-            self.pipelines.prepare(gpu, Self::key(view, form, draw));
-        }
-        self.pipelines.prepare_resolve(gpu, Self::resolve_key(view, form));
+        self.prepare_apart(gpu);
         Ok(())
     }
 
-    fn build(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges, form: &Form) {
-        let Some(buffers) = &self.buffers else { return };
-        passes.upload(
-            &buffers.light,
-            bytemuck::bytes_of(&form.uniform(view, ROUNDING, self.selection.eye_chunks.len() as u32)),
-        );
-        passes.upload(&buffers.eye, bytemuck::bytes_of(&Eye::new(view)));
-        passes.upload(&buffers.eye_chunks, bytemuck::cast_slice(&self.selection.eye_chunks));
-        passes.upload(&buffers.eye_count, &[0; 8]);
-        passes.upload(&buffers.bodies, &[0; 20]);
-        self.silhouettes.record(passes, edges);
-        let Some(found) = self.silhouettes.found_by_gpu() else { return };
-        let mut pass = passes.compute("build wedges");
-        pass.set_bind_group(0, found, &[]);
-        pass.set_bind_group(1, &edges.draw, &[]);
-        if let Some(making) = self.pipelines.making(is_reversed(view)) {
-            let groups = self.silhouettes.room(Part::PassSides).div_ceil(GROUP);
-            pass.set_pipeline(making);
-            pass.set_bind_group(2, &buffers.make, &[]);
-            pass.dispatch_workgroups(groups.min(ROW), groups.div_ceil(ROW), 1);
+    /// Bind groups that read loops or casters which were drawn apart.
+    fn prepare_apart(&mut self, gpu: &Gpu) {
+        let Some(pipelines) = &self.pipelines else { return };
+        let mut kept = Vec::new();
+        for sums in self.targets.iter().filter_map(|t| t.apart.as_ref()) {
+            for buffers in self.pieces.iter().filter_map(|p| p.buffers.as_ref()) {
+                let counts = &buffers.eye_count;
+                let found = self.apart.iter().position(|(s, c, _)| s == sums && c == counts);
+                kept.push(found.map_or_else(
+                    || {
+                        let resources = [wgpu::BindingResource::TextureView(sums), counts.as_entire_binding()];
+                        let made = bind(gpu, "a loop's shares", &pipelines.apart_layout, &resources);
+                        (sums.clone(), counts.clone(), made)
+                    },
+                    |at| self.apart[at].clone(),
+                ));
+            }
         }
-        let chunks = self.selection.eye_chunks.len() as u32;
-        if chunks > 0 {
-            pass.set_pipeline(&self.pipelines.count);
-            pass.set_bind_group(2, &buffers.count, &[]);
-            pass.dispatch_workgroups(chunks.min(ROW), chunks.div_ceil(ROW), 1);
-        }
+        self.apart = kept;
     }
 
-    fn add_up(&self, passes: &mut Passes<'_>, view: &View<'_>, form: &Form) -> u32 {
-        let (Some(buffers), Some(target)) = (&self.buffers, &self.target) else { return 0 };
-        let depth = lent_depth(view.receivers).map(|view| wgpu::RenderPassDepthStencilAttachment {
-            view,
-            depth_ops: None,
-            stencil_ops: None,
-        });
-        let clear = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
-        let mut pass = passes.render("wedges", &[attachment(&target.view, clear)], depth);
-        pass.set_bind_group(0, &view.receivers.bind_group, &[]);
-        pass.set_bind_group(1, &buffers.draw, &[]);
-        let mut draws = 0;
-        if let (Some(pipeline), Some((arguments, offset))) =
-            (self.pipelines.drawing(Self::key(view, form, Draw::Sides)), self.silhouettes.arguments(Part::PassSides))
-        {
-            pass.set_pipeline(pipeline);
-            pass.set_index_buffer(self.silhouettes.corner_indices().slice(..), wgpu::IndexFormat::Uint16);
-            pass.draw_indexed_indirect(arguments, offset);
-            draws += 1;
-        }
-        if let Some(pipeline) = self.pipelines.drawing(Self::key(view, form, Draw::Bodies)).filter(|_| !form.is_point())
-        {
-            pass.set_pipeline(pipeline);
-            pass.set_index_buffer(self.body_indices.slice(..), wgpu::IndexFormat::Uint16);
-            pass.draw_indexed_indirect(&buffers.bodies, 0);
-            draws += 1;
-        }
-        draws
+    /// The target of the scale that is chosen now.
+    fn target(&self) -> Option<&Target> {
+        let scales = self.options.scales();
+        let at = scales.iter().position(|s| *s == self.budget.scale()).unwrap_or(0);
+        self.targets.get(at)
     }
+
+    /// Draws all pieces and turns what they come to into visibility.
+    fn draw(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges, form: &Form, visibility: &VisibilityTarget) -> u32 {
+        let (Some(pipelines), Some(target)) = (&self.pipelines, self.target()) else { return 0 };
+        let mut draws = 0;
+        for (i, piece) in self.pieces.iter().enumerate() {
+            let Some(buffers) = &piece.buffers else { continue };
+            let apart = self.apart.iter().find(|(s, c, _)| Some(s) == target.apart.as_ref() && *c == buffers.eye_count);
+            let apart = apart.map(|(.., group)| group);
+            let (options, body_indices) = (&self.options, &self.body_indices);
+            let recording = Recording { options, pipelines, target, body_indices, apart };
+            piece.build(passes, view, edges, &recording);
+            if i == 0 {
+                draws += copy_depth(passes, view, pipelines, target, buffers);
+            }
+            draws += piece.add_up(passes, view, i, &recording);
+            passes.encoder().copy_buffer_to_buffer(&buffers.eye_count, 0, &self.whole.eye_counts, 8 * i as u64, 8);
+        }
+        self.upload(passes, view, form, target);
+        let mut pass = passes.render("visibility", &[visibility.overwrite()], None);
+        if let Some(pipeline) = pipelines.resolving(resolve_key(view, form, target)) {
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &view.receivers.bind_group, &[]);
+            pass.set_bind_group(1, &target.resolve, &[]);
+            pass.draw(0..3, 0..1);
+        }
+        draws + 1
+    }
+
+    /// What resolving reads.
+    fn upload(&self, passes: &mut Passes<'_>, view: &View<'_>, form: &Form, target: &Target) {
+        let frame = Frame { rounding: ROUNDING, eye_chunks: 0, scale: target.key.scale };
+        let weights: Vec<f32> = self.pieces.iter().map(|p| p.form.weight as f32).collect();
+        passes.upload(&self.whole.light, bytemuck::bytes_of(&form.uniform(view, &frame)));
+        passes.upload(&self.whole.eye, bytemuck::bytes_of(&Eye::new(view)));
+        passes.upload(&self.whole.weights, bytemuck::cast_slice(&weights));
+    }
+}
+
+/// A picture that is next to nothing is not made smaller.
+fn effective((width, height): (u32, u32), scale: u32) -> u32 {
+    if width.min(height) < 2 * scale { 1 } else { scale }
+}
+
+fn resolve_key(view: &View<'_>, form: &Form, target: &Target) -> Resolve {
+    Resolve {
+        soft: !form.is_point(),
+        has_normals: view.receivers.has_normals,
+        face: form.face,
+        pieces: target.key.pieces,
+        scaled: target.key.scale > 1,
+    }
+}
+
+fn prepare_pipelines(
+    gpu: &Gpu,
+    view: &View<'_>,
+    form: &Form,
+    pipelines: &mut Pipelines,
+    target: &Target,
+    pieces: &[Piece],
+    options: &Options,
+) {
+    if let Some(piece) = pieces.first() {
+        for draw in options.draws() {
+            pipelines.prepare(gpu, piece.key(view, *draw, target));
+        }
+    }
+    if let Some(depth) = &target.own_depth {
+        pipelines.prepare_depth(gpu, depth.texture().format());
+    }
+    pipelines.prepare_resolve(gpu, resolve_key(view, form, target));
+}
+
+/// Makes the target's own depth, if it has one; gives the number of draws.
+fn copy_depth(passes: &mut Passes<'_>, view: &View<'_>, pipelines: &Pipelines, target: &Target, buffers: &Buffers) -> u32 {
+    let Some(depth) = &target.own_depth else { return 0 };
+    let Some(pipeline) = pipelines.depth(depth.texture().format()) else { return 0 };
+    let has_stencil = depth.texture().format().has_stencil_aspect();
+    let attachment = wgpu::RenderPassDepthStencilAttachment {
+        view: depth,
+        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+        stencil_ops: has_stencil
+            .then_some(wgpu::Operations { load: wgpu::LoadOp::Clear(0), store: wgpu::StoreOp::Discard }),
+    };
+    let mut pass = passes.render("depth of wedges", &[], Some(attachment));
+    pass.set_pipeline(pipeline);
+    pass.set_bind_group(0, &view.receivers.bind_group, &[]);
+    pass.set_bind_group(1, &buffers.depth, &[]);
+    pass.draw(0..3, 0..1);
+    1
 }
 
 impl Technique for Wedges {
@@ -165,63 +253,56 @@ impl Technique for Wedges {
             return Err(Error::Unsupported { technique: super::INFO.id.into(), what });
         }
         let has_picture = matches!(view.light.shape, LightShape::Rect { texture: Some(_), .. });
-        let form = Form::of(&view.light.shape, has_picture, self.point_radius);
+        let form = Form::of(&view.light.shape, has_picture, self.options.point_radius);
         self.casting = view.casters.casting().len() as u32;
-        self.selection.choose(gpu, view, &form, ROUNDING)?;
-        let is_lit = self.selection.throws.is_empty();
-        if !is_lit && self.is_masked(&form) {
-            let mask = self.mask.get_or_insert_with(|| Mask::new(gpu, self.samples));
-            mask.prepare(gpu, view, &form, &self.selection, ROUNDING)?;
-        } else if !is_lit {
-            self.make_ready(gpu, view, &form)?;
-        }
         self.form = Some(form);
-        Ok(())
+        if self.is_masked(&form) {
+            self.mask_selection.choose(gpu, view, &form, ROUNDING)?;
+            if !self.is_lit() {
+                let mask = self.mask.get_or_insert_with(|| Mask::new(gpu, self.options.samples));
+                mask.prepare(gpu, view, &form, &self.mask_selection, ROUNDING)?;
+            }
+            return Ok(());
+        }
+        self.choose(gpu, view, &form)?;
+        if self.is_lit() { Ok(()) } else { self.make_ready(gpu, view, &form) }
     }
 
     fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
         visibility.check(view.receivers)?;
         self.draws = 0;
-        let edges = view.casters.made_edges().filter(|_| !self.selection.throws.is_empty());
+        let edges = view.casters.made_edges().filter(|_| !self.is_lit());
         let (Some(edges), Some(form)) = (edges, self.form) else {
             drop(passes.render("visibility", &[visibility.overwrite()], None));
             return Ok(());
         };
-        if let Some(mask) = self.mask.as_mut().filter(|_| self.masks_all || form.face == Face::Picture) {
+        let masked = self.is_masked(&form);
+        if let Some(mask) = self.mask.as_mut().filter(|_| masked) {
             mask.record(passes, view, &form, ROUNDING, visibility);
             self.draws = 1;
             return Ok(());
         }
-        self.build(passes, view, edges, &form);
-        self.draws = self.add_up(passes, view, &form);
-        let mut pass = passes.render("visibility", &[visibility.overwrite()], None);
-        if let (Some(pipeline), Some(target)) = (self.pipelines.resolving(Self::resolve_key(view, &form)), &self.target)
-        {
-            pass.set_pipeline(pipeline);
-            pass.set_bind_group(0, &view.receivers.bind_group, &[]);
-            pass.set_bind_group(1, &target.resolve, &[]);
-            pass.draw(0..3, 0..1);
-            self.draws += 1;
-        }
+        self.draws = self.draw(passes, view, edges, &form, visibility);
+        self.budget.frame(passes.last_ms());
         Ok(())
     }
 
     fn stats(&self) -> Stats {
-        let thrown = self.selection.throws.len() as u32;
-        let own = self.buffers.as_ref().map_or(0, Buffers::bytes) + self.target.as_ref().map_or(0, Target::bytes);
+        let masked = self.form.is_some_and(|form| self.is_masked(&form));
+        let thrown = |selection: &Selection| selection.throws.len() as u32;
+        let thrown = match masked {
+            true => thrown(&self.mask_selection),
+            false => self.pieces.iter().map(|p| thrown(&p.selection)).max().unwrap_or(0),
+        };
+        let sides: u64 = self.pieces.iter().map(|p| u64::from(p.silhouettes.room(Part::PassSides))).sum();
+        let pieces: u64 = self.pieces.iter().map(Piece::bytes).sum();
+        let targets: u64 = self.targets.iter().map(Target::bytes).sum();
         Stats {
             draws: self.draws,
-            triangles: u64::from(self.silhouettes.room(Part::PassSides)) * 10,
+            triangles: if masked { 0 } else { sides * 10 },
             casters_drawn: thrown,
             casters_culled: self.casting.saturating_sub(thrown),
-            bytes: own
-                + self.mask.as_ref().map_or(0, Mask::bytes)
-                + self.silhouettes.bytes()
-                + self.body_indices.size(),
+            bytes: pieces + targets + self.mask.as_ref().map_or(0, Mask::bytes) + self.body_indices.size(),
         }
     }
-}
-
-fn is_reversed(view: &View<'_>) -> bool {
-    view.camera.background_depth() == 0.0
 }

@@ -1,0 +1,311 @@
+//! A piece of a light, most often all of it: its casters, silhouettes and wedges.
+
+use super::draws::Draw;
+use super::groups::Group;
+use super::groups::find_groups;
+use super::light::Form;
+use super::light::Frame;
+use super::options::Batch;
+use super::options::Options;
+use super::pipelines::Key;
+use super::pipelines::Making;
+use super::pipelines::Pipelines;
+use super::select::Selection;
+use super::targets::Buffers;
+use super::targets::GROUP;
+use super::targets::Needs;
+use super::targets::Target;
+use crate::casters::Edges;
+use crate::depth_maps::Eye;
+use crate::fullscreen::attachment;
+use crate::silhouettes::{Extrude, Part, Silhouettes, Style};
+use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
+use std::ops::Range;
+
+/// Workgroups in a row, the most that every adapter allows.
+const ROW: u32 = 65_535;
+
+/// A few roundings of single precision.
+pub(super) const ROUNDING: f64 = 1e-6;
+
+/// Corners of a body and of a side, by which vertices are numbered.
+const BODY_CORNERS: u32 = 6;
+const SIDE_CORNERS: u32 = 4;
+
+/// Indices of a body and of a side.
+pub(super) const BODY_INDICES: u32 = 24;
+const SIDE_INDICES: u32 = 6;
+
+pub(super) struct Piece {
+    pub form: Form,
+    pub selection: Selection,
+    pub silhouettes: Silhouettes,
+    pub buffers: Option<Buffers>,
+    /// Casters or loops that are drawn one by one, where the CPU lists silhouettes.
+    groups: Vec<Group>,
+}
+
+/// What recording takes.
+pub(super) struct Recording<'a> {
+    pub options: &'a Options,
+    pub pipelines: &'a Pipelines,
+    pub target: &'a Target,
+    pub body_indices: &'a wgpu::Buffer,
+    /// Reads what a loop or a caster comes to.
+    pub apart: Option<&'a wgpu::BindGroup>,
+}
+
+impl Piece {
+    pub fn new(gpu: &Gpu, form: Form, options: &Options) -> Self {
+        let extrude = if options.listed() { Extrude::Cpu } else { Extrude::Compute };
+        let silhouettes = Silhouettes::new(gpu, extrude);
+        Self { form, selection: Selection::default(), silhouettes, buffers: None, groups: Vec::new() }
+    }
+
+    /// Silhouettes of the chosen casters, and room for their wedges.
+    pub fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        view: &View<'_>,
+        pipelines: &mut Pipelines,
+        options: &Options,
+    ) -> Result<(), Error> {
+        let style = Style { weighted: true, quads: true };
+        let projection = (&view.camera.clip_from_world(), is_reversed(view));
+        let throws = &self.selection.throws;
+        self.silhouettes.prepare(gpu, view.casters, projection, self.form.center, throws, style)?;
+        self.groups.clear();
+        if options.listed() {
+            find_groups(view.casters, &self.silhouettes, throws, options, &mut self.groups);
+            for chunk in &mut self.selection.eye_chunks {
+                chunk[2] = self.groups.iter().find(|g| g.caster == chunk[0]).map_or(0, |g| g.slot);
+            }
+        }
+        let needs = Needs {
+            wedges: self.silhouettes.room(Part::PassSides),
+            eye_chunks: self.selection.eye_chunks.len() as u32,
+            slots: 1 + self.groups.len() as u32,
+            anchors: if self.is_split() { self.selection.anchors.len() as u32 } else { 0 },
+        };
+        if self.buffers.as_ref().is_none_or(|b| !b.hold(&needs)) {
+            self.buffers = Some(Buffers::new(gpu, pipelines, &needs)?);
+        }
+        pipelines.prepare_making(gpu, self.making(view, options));
+        pipelines.prepare_making(gpu, Making::EyeCount { split: self.is_split() });
+        Ok(())
+    }
+
+    pub fn is_split(&self) -> bool {
+        self.form.cell.is_some()
+    }
+
+    /// Wedges that the CPU found.
+    fn listed(&self) -> u32 {
+        self.silhouettes.found().map_or(0, |[sides, ..]| sides)
+    }
+
+    fn making(&self, view: &View<'_>, options: &Options) -> Making {
+        Making::Wedges { reversed: is_reversed(view), split: self.is_split(), halves: options.halves() }
+    }
+
+    /// Finds silhouettes and builds wedges.
+    pub fn build(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges, r: &Recording<'_>) {
+        let Some(buffers) = &self.buffers else { return };
+        let chunks = self.selection.eye_chunks.len() as u32;
+        let frame = Frame { rounding: ROUNDING, eye_chunks: chunks, scale: r.target.key.scale };
+        passes.upload(&buffers.light, bytemuck::bytes_of(&self.form.uniform(view, &frame)));
+        passes.upload(&buffers.eye, bytemuck::bytes_of(&Eye::new(view)));
+        passes.upload(&buffers.eye_chunks, bytemuck::cast_slice(&self.selection.eye_chunks));
+        passes.encoder().clear_buffer(&buffers.eye_count, 0, None);
+        passes.upload(&buffers.bodies, &[0; 20]);
+        if self.is_split() {
+            passes.upload(&buffers.anchors, bytemuck::cast_slice(&self.selection.anchors));
+        }
+        self.silhouettes.record(passes, edges);
+        let Some(found) = self.silhouettes.found_by_gpu() else { return };
+        let mut pass = passes.compute("build wedges");
+        pass.set_bind_group(0, found, &[]);
+        pass.set_bind_group(1, &edges.draw, &[]);
+        if let Some(making) = r.pipelines.making(self.making(view, r.options)) {
+            let groups = self.silhouettes.room(Part::PassSides).div_ceil(GROUP);
+            pass.set_pipeline(making);
+            pass.set_bind_group(2, &buffers.make, &[]);
+            pass.dispatch_workgroups(groups.min(ROW), groups.div_ceil(ROW), 1);
+        }
+        let count = r.pipelines.making(Making::EyeCount { split: self.is_split() });
+        if let Some(count) = count.filter(|_| chunks > 0) {
+            pass.set_pipeline(count);
+            pass.set_bind_group(2, &buffers.count, &[]);
+            pass.dispatch_workgroups(chunks.min(ROW), chunks.div_ceil(ROW), 1);
+        }
+    }
+
+    /// Adds up what casters cover of it in a layer of the target; gives the number of draws.
+    pub fn add_up(&self, passes: &mut Passes<'_>, view: &View<'_>, layer: usize, r: &Recording<'_>) -> u32 {
+        let clear = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
+        let Some(layer) = r.target.layers.get(layer) else { return 0 };
+        let mut draws = 0;
+        let is_soft = !self.form.is_point();
+        if !r.options.apart() {
+            let mut pass = self.begin(passes, view, attachment(layer, clear), r);
+            match r.options.batch {
+                Batch::PerWedge => {
+                    draws += self.range(&mut pass, view, Draw::Sides, 0..self.listed(), r);
+                    draws += if is_soft { self.wedge_by_wedge(&mut pass, view, r) } else { 0 };
+                }
+                _ => draws += self.all(&mut pass, view, r),
+            }
+            return draws;
+        }
+        let mut load = clear;
+        for group in &self.groups {
+            let is_apart = group.slot > 0;
+            let (into, first) = if is_apart { (r.target.apart.as_ref().unwrap_or(layer), clear) } else { (layer, load) };
+            {
+                let mut pass = self.begin(passes, view, attachment(into, first), r);
+                let [sides, bodies] = group.draws;
+                draws += self.range(&mut pass, view, sides, group.wedges.clone(), r);
+                draws += if is_soft { self.range(&mut pass, view, bodies, group.wedges.clone(), r) } else { 0 };
+            }
+            if is_apart {
+                draws += self.transfer(passes, view, attachment(layer, load), group, r);
+            }
+            load = wgpu::LoadOp::Load;
+        }
+        draws
+    }
+
+    fn begin<'p>(
+        &self,
+        passes: &'p mut Passes<'_>,
+        view: &'p View<'_>,
+        color: Option<wgpu::RenderPassColorAttachment<'p>>,
+        r: &Recording<'p>,
+    ) -> wgpu::RenderPass<'p> {
+        let depth = r.target.depth(view).map(|view| wgpu::RenderPassDepthStencilAttachment {
+            view,
+            depth_ops: None,
+            stencil_ops: r.options.stencil.then_some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(0),
+                store: wgpu::StoreOp::Discard,
+            }),
+        });
+        let mut pass = passes.render("wedges", &[color], depth);
+        pass.set_bind_group(0, &view.receivers.bind_group, &[]);
+        if let Some(buffers) = &self.buffers {
+            pass.set_bind_group(1, &buffers.draw, &[]);
+        }
+        pass
+    }
+
+    pub fn key(&self, view: &View<'_>, draw: Draw, target: &Target) -> Key {
+        let depth = target.depth(view).map(|d| (d.texture().format(), is_reversed(view)));
+        Key { draw, depth: depth.filter(|_| !draw.is_apart()), face: self.form.face, split: self.is_split() }
+    }
+
+    /// All wedges at once, as the GPU counted them.
+    fn all(&self, pass: &mut wgpu::RenderPass<'_>, view: &View<'_>, r: &Recording<'_>) -> u32 {
+        let Some(buffers) = &self.buffers else { return 0 };
+        let Some((arguments, offset)) = self.silhouettes.arguments(Part::PassSides) else { return 0 };
+        let mut draws = 0;
+        if let Some(pipeline) = r.pipelines.drawing(self.key(view, Draw::Sides, r.target)) {
+            pass.set_pipeline(pipeline);
+            pass.set_index_buffer(self.silhouettes.corner_indices().slice(..), wgpu::IndexFormat::Uint16);
+            pass.draw_indexed_indirect(arguments, offset);
+            draws += 1;
+        }
+        pass.set_index_buffer(r.body_indices.slice(..), wgpu::IndexFormat::Uint16);
+        let bodies: &[Draw] = match r.options.stencil {
+            _ if self.form.is_point() => &[],
+            true => &[Draw::Mask, Draw::MaskedBodies],
+            false => &[Draw::Bodies],
+        };
+        for draw in bodies {
+            if let Some(pipeline) = r.pipelines.drawing(self.key(view, *draw, r.target)) {
+                pass.set_pipeline(pipeline);
+                pass.draw_indexed_indirect(&buffers.bodies, 0);
+                draws += 1;
+            }
+        }
+        draws
+    }
+
+    /// Sides or bodies of some wedges, groups of 64 and what is left.
+    fn range(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        view: &View<'_>,
+        draw: Draw,
+        wedges: Range<u32>,
+        r: &Recording<'_>,
+    ) -> u32 {
+        let Some(pipeline) = r.pipelines.drawing(self.key(view, draw, r.target)) else { return 0 };
+        pass.set_pipeline(pipeline);
+        let (indices, corners, each) = match draw.how().is_body {
+            true => (r.body_indices, BODY_CORNERS, BODY_INDICES),
+            false => (self.silhouettes.corner_indices(), SIDE_CORNERS, SIDE_INDICES),
+        };
+        pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint16);
+        let count = wedges.end - wedges.start;
+        let (groups, left) = (count / GROUP, count % GROUP);
+        let first = |number: u32| (number * corners) as i32;
+        let mut draws = 0;
+        if groups > 0 {
+            pass.draw_indexed(0..GROUP * each, first(wedges.start), 0..groups);
+            draws += 1;
+        }
+        if left > 0 {
+            pass.draw_indexed(0..left * each, first(wedges.end - left), 0..1);
+            draws += 1;
+        }
+        draws
+    }
+
+    /// One wedge after the other, in two halves, each with a mask if there is one (PX 4.1–4.3).
+    fn wedge_by_wedge(&self, pass: &mut wgpu::RenderPass<'_>, view: &View<'_>, r: &Recording<'_>) -> u32 {
+        let halves = match r.options.stencil {
+            true => [(Some(Draw::FrontMask), Draw::MaskedFront), (Some(Draw::FrontMask), Draw::MaskedBack)],
+            false => [(None, Draw::Front), (None, Draw::Back)],
+        };
+        let find = |draw| r.pipelines.drawing(self.key(view, draw, r.target));
+        let halves = halves.map(|(mask, draw)| (mask.and_then(find), find(draw)));
+        pass.set_index_buffer(r.body_indices.slice(..), wgpu::IndexFormat::Uint16);
+        let mut draws = 0;
+        for wedge in 0..self.listed() {
+            for (half, (mask, draw)) in (0..).zip(halves) {
+                for pipeline in [mask, draw].into_iter().flatten() {
+                    pass.set_pipeline(pipeline);
+                    pass.draw_indexed(0..BODY_INDICES, (wedge * BODY_CORNERS) as i32, half..half + 1);
+                    draws += 1;
+                }
+            }
+        }
+        draws
+    }
+
+    /// Adds what a loop or a caster came to.
+    fn transfer(
+        &self,
+        passes: &mut Passes<'_>,
+        view: &View<'_>,
+        into: Option<wgpu::RenderPassColorAttachment<'_>>,
+        group: &Group,
+        r: &Recording<'_>,
+    ) -> u32 {
+        let pipeline = group.transfer.and_then(|draw| r.pipelines.drawing(self.key(view, draw, r.target)));
+        let (Some(pipeline), Some(sums)) = (pipeline, r.apart) else { return 0 };
+        let mut pass = passes.render("add loop", &[into], None);
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, sums, &[]);
+        pass.draw(0..3, group.slot..group.slot + 1);
+        1
+    }
+
+    pub fn bytes(&self) -> u64 {
+        self.silhouettes.bytes() + self.buffers.as_ref().map_or(0, Buffers::bytes)
+    }
+}
+
+pub(super) fn is_reversed(view: &View<'_>) -> bool {
+    view.camera.background_depth() == 0.0
+}
