@@ -221,7 +221,8 @@ mod tests {
             let cells = Cell::grid(count);
             let area: f64 = cells.iter().map(|c| 0.5 * c.around).sum();
             assert!((area - std::f64::consts::PI).abs() < 1e-12, "{count}: {area}");
-            let moments = cells.iter().fold([0.0; 2], |m, c| [m[0] + c.around * c.center[0], m[1] + c.around * c.center[1]]);
+            let moments =
+                cells.iter().fold([0.0; 2], |m, c| [m[0] + c.around * c.center[0], m[1] + c.around * c.center[1]]);
             assert!(length(moments) < 1e-12, "{count}: {moments:?}");
         }
         let quarter = Cell::grid(2)[3];

@@ -198,3 +198,106 @@ fn lights_and_points_within_each_other_stay_between_0_and_1() {
         }
     }
 }
+
+fn difference(a: &Image<f32>, b: &Image<f32>) -> f64 {
+    let sum: f64 = a.data.iter().zip(&b.data).map(|(a, b)| f64::from((a - b).abs())).sum();
+    sum / a.data.len() as f64
+}
+
+#[test]
+fn all_ways_of_drawing_agree() {
+    let gpu = gpu();
+    let size = (256, 192);
+    for id in ["primitives", "contact", "lantern"] {
+        let scene = scene(id, 1.0);
+        let light =
+            (0..scene.lights.len()).find(|i| scene.lights[*i].shape.kind().is_soft()).expect("it has a soft light");
+        let drawn = |set: &str| {
+            let mut renderer = renderer(&gpu, &scene, light, "wedges", set, size);
+            let picture = visibility(&mut renderer, &scene);
+            (picture, renderer.stats(0).draws)
+        };
+        let (all, draws) = drawn("");
+        assert!(draws <= 3, "{id}: {draws} draws");
+        for set in ["batch=per-wedge", "batch=per-wedge,cull=shader", "batch=per-loop", "cull=stencil"] {
+            let (picture, draws) = drawn(set);
+            let off = difference(&picture, &all);
+            println!("{id} {set}: {off:.2e}, {draws} draws");
+            // The same terms, added in another order.
+            assert!(off < 1e-5, "{id} {set}: {off:.2e}");
+        }
+    }
+}
+
+#[test]
+fn a_split_light_halves_the_error_of_a_single_silhouette() {
+    if shared().is_none() {
+        println!(
+            "a_split_light_halves_the_error_of_a_single_silhouette skipped: no shared reference pictures (set UMBRAGE_SHARED)"
+        );
+        return;
+    }
+    for name in ["models", "boxes-line", "boxes-disc"] {
+        let of = |set| vs_hard(name, 0, set).expect("it is among the stored scenes").0;
+        let (whole, four, nine) = (of(""), of("split-light=2"), of("split-light=3"));
+        println!("{name}: {whole:.4}, {four:.4}, {nine:.4}");
+        assert!(four < 0.53 * whole && nine < four, "{name}: {whole:.4}, {four:.4}, {nine:.4}");
+    }
+}
+
+#[test]
+fn pieces_of_every_light_add_up_to_it() {
+    let position = DVec3::new(0.6, 4.0, 0.4);
+    let (direction, up) = (DVec3::new(0.2, -1.0, 0.1).normalize(), DVec3::Z);
+    let shapes = [
+        LightShape::Sphere { position, radius: 0.5 },
+        LightShape::Ellipsoid { position, radii: DVec3::new(0.6, 0.3, 0.2), rotation: Default::default() },
+        LightShape::Disc { position, direction, radius: 0.5 },
+        LightShape::Rect { position, direction, up, size: [1.0, 0.6].into(), texture: None },
+        LightShape::Line { from: position - DVec3::X * 0.5, to: position + DVec3::X * 0.5 },
+        LightShape::Directional { direction, angle_deg: 8.0 },
+    ];
+    let gpu = gpu();
+    for shape in shapes {
+        let text = format!("{shape:?}");
+        // A flat caster looks the same from all of the light, so that pieces have to give what the whole does.
+        let scene = star(shape);
+        let drawn = |set: &str| visibility(&mut renderer(&gpu, &scene, 0, "wedges", set, (160, 120)), &scene);
+        let whole = drawn("");
+        for set in ["split-light=2", "split-light=3"] {
+            let off = difference(&drawn(set), &whole);
+            println!("{text} {set}: {off:.2e}");
+            assert!(off < 2e-4, "{text} {set}: {off:.2e}");
+        }
+    }
+}
+
+#[test]
+fn smaller_buffers_keep_to_surfaces() {
+    let gpu = gpu();
+    let scene = scene("primitives", 1.0);
+    let light = (0..scene.lights.len()).find(|i| scene.lights[*i].shape.kind().is_soft()).expect("it has a soft light");
+    let error = |set: &str| against_truth(&gpu, &scene, light, "wedges", set, (256, 192), 256);
+    let (full, half, quarter) = (error(""), error("scale=1/2"), error("scale=1/4"));
+    println!("mae {:.5}, {:.5}, {:.5}", full.mae, half.mae, quarter.mae);
+    assert!(half.mae < 0.004 && quarter.mae < 0.012, "{:.5}, {:.5}", half.mae, quarter.mae);
+    for size in [(1, 1), (3, 2), (7, 5), (8, 9)] {
+        for set in ["scale=1/4", "scale=1/2,split-light=2", "batch=per-wedge,scale=1/4"] {
+            let picture = visibility(&mut renderer(&gpu, &scene, light, "wedges", set, size), &scene);
+            assert!(picture.data.iter().all(|v| (0.0..=1.0).contains(v)), "{size:?} {set}");
+        }
+    }
+}
+
+#[test]
+fn the_largest_share_is_nearer_where_casters_overlap() {
+    if shared().is_none() {
+        println!(
+            "the_largest_share_is_nearer_where_casters_overlap skipped: no shared reference pictures (set UMBRAGE_SHARED)"
+        );
+        return;
+    }
+    let of = |set| vs_hard("overlap", 0, set).expect("it is among the stored scenes").0;
+    let (sum, most) = (of(""), of("combine=max"));
+    assert!(most < 0.2 * sum, "{most:.4} of {sum:.4}");
+}

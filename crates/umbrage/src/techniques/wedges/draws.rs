@@ -116,7 +116,11 @@ fn most(format: wgpu::TextureFormat) -> wgpu::ColorTargetState {
 }
 
 /// The stencil is 0 where nothing was marked.
-fn stencil(compare: wgpu::CompareFunction, fail: wgpu::StencilOperation, pass: wgpu::StencilOperation) -> wgpu::StencilState {
+fn stencil(
+    compare: wgpu::CompareFunction,
+    fail: wgpu::StencilOperation,
+    pass: wgpu::StencilOperation,
+) -> wgpu::StencilState {
     let face =
         wgpu::StencilFaceState { compare, fail_op: fail, depth_fail_op: wgpu::StencilOperation::Keep, pass_op: pass };
     wgpu::StencilState { front: face, back: face, read_mask: 0xff, write_mask: 0xff }

@@ -130,7 +130,10 @@ mod tests {
             assert!(is_convex(&lines(&square), light));
             assert!(!is_convex(&lines(&dent), light));
         }
-        let star: Vec<Vec3> = (0..5).map(|i| (i as f32 * 4.0 * std::f32::consts::PI / 5.0).sin_cos()).map(|(x, z)| Vec3::new(x, 0.0, z)).collect();
+        let star: Vec<Vec3> = (0..5)
+            .map(|i| (i as f32 * 4.0 * std::f32::consts::PI / 5.0).sin_cos())
+            .map(|(x, z)| Vec3::new(x, 0.0, z))
+            .collect();
         assert!(!is_convex(&lines(&star), Vec4::Y), "it turns one way, but twice around");
     }
 }

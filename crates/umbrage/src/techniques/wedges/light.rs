@@ -312,7 +312,10 @@ mod tests {
                 let (full_x, full_y) = (x * scale + scale / 2, y * scale + scale / 2);
                 assert!(full_x < size.0 && full_y < size.1, "{size:?} {scale}");
                 let got = raster * DVec4::new(ndc(full_x, size.0), -ndc(full_y, size.1), 0.0, 1.0);
-                assert!((got.x - ndc(x, width)).abs() < 1e-12 && (got.y + ndc(y, height)).abs() < 1e-12, "{size:?} {scale}");
+                assert!(
+                    (got.x - ndc(x, width)).abs() < 1e-12 && (got.y + ndc(y, height)).abs() < 1e-12,
+                    "{size:?} {scale}"
+                );
             }
         }
     }

@@ -127,7 +127,16 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     hard: false,
     params: PARAMS,
     views: &[],
-    shaders: &[FIND_SHADER, MAKE_SHADER, EYE_SHADER, DRAW_SHADER, APART_SHADER, DEPTH_SHADER, RESOLVE_SHADER, mask::MASK_SHADER],
+    shaders: &[
+        FIND_SHADER,
+        MAKE_SHADER,
+        EYE_SHADER,
+        DRAW_SHADER,
+        APART_SHADER,
+        DEPTH_SHADER,
+        RESOLVE_SHADER,
+        mask::MASK_SHADER,
+    ],
     readme: include_str!("README.md"),
     make: |gpu, settings| Ok(Box::new(technique::Wedges::new(gpu, settings)?)),
 };

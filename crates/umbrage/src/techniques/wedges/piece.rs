@@ -160,7 +160,8 @@ impl Piece {
         let mut load = clear;
         for group in &self.groups {
             let is_apart = group.slot > 0;
-            let (into, first) = if is_apart { (r.target.apart.as_ref().unwrap_or(layer), clear) } else { (layer, load) };
+            let (into, first) =
+                if is_apart { (r.target.apart.as_ref().unwrap_or(layer), clear) } else { (layer, load) };
             {
                 let mut pass = self.begin(passes, view, attachment(into, first), r);
                 let [sides, bodies] = group.draws;
@@ -185,10 +186,10 @@ impl Piece {
         let depth = r.target.depth(view).map(|view| wgpu::RenderPassDepthStencilAttachment {
             view,
             depth_ops: None,
-            stencil_ops: r.options.stencil.then_some(wgpu::Operations {
-                load: wgpu::LoadOp::Clear(0),
-                store: wgpu::StoreOp::Discard,
-            }),
+            stencil_ops: r
+                .options
+                .stencil
+                .then_some(wgpu::Operations { load: wgpu::LoadOp::Clear(0), store: wgpu::StoreOp::Discard }),
         });
         let mut pass = passes.render("wedges", &[color], depth);
         pass.set_bind_group(0, &view.receivers.bind_group, &[]);

@@ -155,7 +155,14 @@ impl Wedges {
     }
 
     /// Draws all pieces and turns what they come to into visibility.
-    fn draw(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges, form: &Form, visibility: &VisibilityTarget) -> u32 {
+    fn draw(
+        &self,
+        passes: &mut Passes<'_>,
+        view: &View<'_>,
+        edges: &Edges,
+        form: &Form,
+        visibility: &VisibilityTarget,
+    ) -> u32 {
         let (Some(pipelines), Some(target)) = (&self.pipelines, self.target()) else { return 0 };
         let mut draws = 0;
         for (i, piece) in self.pieces.iter().enumerate() {
@@ -228,7 +235,13 @@ fn prepare_pipelines(
 }
 
 /// Makes the target's own depth, if it has one; gives the number of draws.
-fn copy_depth(passes: &mut Passes<'_>, view: &View<'_>, pipelines: &Pipelines, target: &Target, buffers: &Buffers) -> u32 {
+fn copy_depth(
+    passes: &mut Passes<'_>,
+    view: &View<'_>,
+    pipelines: &Pipelines,
+    target: &Target,
+    buffers: &Buffers,
+) -> u32 {
     let Some(depth) = &target.own_depth else { return 0 };
     let Some(pipeline) = pipelines.depth(depth.texture().format()) else { return 0 };
     let has_stencil = depth.texture().format().has_stencil_aspect();

@@ -217,7 +217,8 @@ impl Mask {
         let (Some((_, pipeline)), Some(group), Some(meshes)) = (pipeline, &self.bind_group, &mut self.meshes) else {
             return;
         };
-        passes.upload(&self.light, bytemuck::bytes_of(&form.uniform(view, &Frame { rounding, eye_chunks: 0, scale: 1 })));
+        passes
+            .upload(&self.light, bytemuck::bytes_of(&form.uniform(view, &Frame { rounding, eye_chunks: 0, scale: 1 })));
         passes.upload(&self.eye, bytemuck::bytes_of(&Eye::new(view)));
         passes.upload(&self.samples, bytemuck::cast_slice(&self.sample_data));
         passes.upload(&self.top.buffer, bytemuck::cast_slice(&self.top_data));
