@@ -17,3 +17,4 @@ mod steady;
 mod volume;
 mod warped;
 mod wedges;
+mod wedges_tables;

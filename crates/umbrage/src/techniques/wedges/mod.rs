@@ -6,6 +6,7 @@ mod light;
 mod mask;
 mod pipelines;
 mod select;
+mod tables;
 mod targets;
 mod technique;
 
@@ -42,7 +43,15 @@ const DRAW_SHADER: Shader = Shader {
 
 const RESOLVE_SHADER: Shader = Shader {
     name: "wedge visibility",
-    parts: &[FULLSCREEN, RECEIVERS, LIGHT, include_str!("resolve.wgsl")],
+    parts: &[
+        FULLSCREEN,
+        RECEIVERS,
+        LIGHT,
+        COVERAGE,
+        include_str!("term_analytic.wgsl"),
+        include_str!("resolve.wgsl"),
+        include_str!("horizon_analytic.wgsl"),
+    ],
     layouts: &[WedgeLight::LAYOUT, Eye::LAYOUT],
 };
 
@@ -55,8 +64,15 @@ const PARAMS: &[Param] = &[
         kind: ParamKind::Choice { values: &["sum", "bitmask"] },
     },
     Param {
+        name: "coverage",
+        help: "Where the share that an edge covers of a ball, an ellipsoid, a disc or a sun comes from: a formula, or two look-ups of 32³ \
+               values. Textured rectangles always have a table, other lights none.",
+        unit: "",
+        kind: ParamKind::Choice { values: &["analytic", "table"] },
+    },
+    Param {
         name: "samples",
-        help: "Samples of the light with `combine = bitmask`, and of every textured rectangle; rounded up to a multiple of 32.",
+        help: "Samples of the light with `combine = bitmask`; rounded up to a multiple of 32.",
         unit: "",
         kind: ParamKind::Int { min: 32, max: 256, default: 64 },
     },
@@ -80,7 +96,17 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     hard: false,
     params: PARAMS,
     views: &[],
-    shaders: &[FIND_SHADER, MAKE_SHADER, EYE_SHADER, DRAW_SHADER, RESOLVE_SHADER, mask::MASK_SHADER],
+    shaders: &[
+        FIND_SHADER,
+        MAKE_SHADER,
+        EYE_SHADER,
+        DRAW_SHADER,
+        RESOLVE_SHADER,
+        tables::TABLE_SHADER,
+        tables::PICTURE_SHADER,
+        tables::RESOLVE_PICTURE_SHADER,
+        mask::MASK_SHADER,
+    ],
     readme: include_str!("README.md"),
     make: |gpu, settings| Ok(Box::new(technique::Wedges::new(gpu, settings))),
 };

@@ -1,10 +1,9 @@
 //! Pipelines that build, count and draw wedges.
 
-use super::DRAW_SHADER;
 use super::EYE_SHADER;
 use super::MAKE_SHADER;
-use super::RESOLVE_SHADER;
 use super::light::Face;
+use super::tables::Term;
 use crate::casters::Edges;
 use crate::fullscreen::{FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, additive, layout, texture};
 use crate::receivers::Receivers;
@@ -21,8 +20,6 @@ pub(super) struct Pipelines {
     pub clamps: bool,
     pub count: wgpu::ComputePipeline,
     make: Vec<(bool, wgpu::ComputePipeline)>,
-    draw_module: wgpu::ShaderModule,
-    resolve_module: wgpu::ShaderModule,
     silhouettes: wgpu::BindGroupLayout,
     drawing: Vec<(Key, wgpu::RenderPipeline)>,
     resolving: Vec<(Resolve, wgpu::RenderPipeline)>,
@@ -45,6 +42,7 @@ pub(super) struct Key {
     pub depth: Option<(wgpu::TextureFormat, bool)>,
     pub has_normals: bool,
     pub face: Face,
+    pub term: Term,
 }
 
 /// A pipeline that turns shares into visibility.
@@ -53,6 +51,7 @@ pub(super) struct Resolve {
     pub soft: bool,
     pub has_normals: bool,
     pub face: Face,
+    pub term: Term,
 }
 
 impl Pipelines {
@@ -72,8 +71,6 @@ impl Pipelines {
             clamps: gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL),
             count,
             make: Vec::new(),
-            draw_module: DRAW_SHADER.module(gpu),
-            resolve_module: RESOLVE_SHADER.module(gpu),
             silhouettes: silhouettes.clone(),
             drawing: Vec::new(),
             resolving: Vec::new(),
@@ -118,9 +115,9 @@ impl Pipelines {
             let constants = [("SOFT", on(key.soft)), ("HAS_NORMALS", on(key.has_normals)), ("FACE", face)];
             let made = Fullscreen {
                 label: "wedge visibility",
-                module: &self.resolve_module,
+                module: &key.term.resolve_shader().module(gpu),
                 entry: "resolve",
-                groups: &[&Receivers::layout(gpu), &self.resolve_layout],
+                groups: &[&Receivers::layout(gpu), &self.resolve_layout, &key.term.layout(gpu)],
                 target: VisibilityTarget::FORMAT.into(),
                 constants: &constants,
             };
@@ -136,9 +133,10 @@ impl Pipelines {
     fn draw(&self, gpu: &Gpu, key: Key) -> wgpu::RenderPipeline {
         let bodies = key.draw == Draw::Bodies;
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &[Some(&Receivers::layout(gpu)), Some(&self.draw_layout)],
+            bind_group_layouts: &[Some(&Receivers::layout(gpu)), Some(&self.draw_layout), Some(&key.term.layout(gpu))],
             ..Default::default()
         });
+        let module = &key.term.draw_shader().module(gpu);
         let on = |switch: bool| if switch { 1.0 } else { 0.0 };
         let vertex_constants = [("CLAMPS", on(self.clamps))];
         let fragment_constants = [("FACE", f64::from(key.face as u32))];
@@ -151,7 +149,7 @@ impl Pipelines {
             label: Some(if bodies { "wedges" } else { "sides" }),
             layout: Some(&layout),
             vertex: wgpu::VertexState {
-                module: &self.draw_module,
+                module,
                 entry_point: Some(if bodies { "body" } else { "side" }),
                 compilation_options: constants(&vertex_constants, bodies),
                 buffers: &[],
@@ -170,7 +168,7 @@ impl Pipelines {
             }),
             multisample: Default::default(),
             fragment: Some(wgpu::FragmentState {
-                module: &self.draw_module,
+                module,
                 entry_point: Some(if bodies { "add_wedge" } else { "add_side" }),
                 compilation_options: constants(&fragment_constants, bodies),
                 targets: &target,

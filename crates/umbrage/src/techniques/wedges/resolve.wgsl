@@ -7,25 +7,11 @@
 @group(1) @binding(3) var<storage, read> eye_count: vec2u;
 
 override SOFT: bool = true;
-override FACE: u32 = BALL;
-
-const PI: f32 = 3.14159265358979;
 
 // Of a disc of radius 1 the share beyond a line at this distance from its centre.
 fn beyond_on_disc(distance: f32) -> f32 {
     let d = clamp(distance, -1.0, 1.0);
     return (acos(d) - d * sqrt(1.0 - d * d)) / PI;
-}
-
-// Of the square between −1 and 1 the share where x a + y b + c < 0.
-fn beyond_on_square(line: vec3f) -> f32 {
-    let a = max(max(abs(line.x), abs(line.y)), 1e-30);
-    let b = max(min(abs(line.x), abs(line.y)), 1e-4 * a);
-    let c = abs(line.z);
-    let one = max(a + b - c, 0.0);
-    let other = max(a - b - c, 0.0);
-    let share = (one * one - other * other) / (8.0 * a * b);
-    return select(1.0 - share, share, line.z >= 0.0);
 }
 
 // The share of the light that is below the surface's own plane, whose normal is given in light space.

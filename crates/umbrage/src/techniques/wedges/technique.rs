@@ -1,9 +1,10 @@
 //! A frame: choose casters, find silhouettes, build wedges, add up what they cover, resolve.
 
-use super::light::{Face, Form};
+use super::light::Form;
 use super::mask::Mask;
 use super::pipelines::{Draw, Key, Pipelines, Resolve};
 use super::select::Selection;
+use super::tables::Tables;
 use super::targets::{Buffers, GROUP, Target, lent_depth};
 use crate::casters::Edges;
 use crate::depth_maps::Eye;
@@ -12,7 +13,6 @@ use crate::params::Settings;
 use crate::silhouettes::{Extrude, Part, Silhouettes, Style};
 use crate::technique::{Stats, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
-use umbrage_core::LightShape;
 use umbrage_core::glam::DVec3;
 
 pub(super) struct Wedges {
@@ -26,7 +26,8 @@ pub(super) struct Wedges {
     form: Option<Form>,
     casting: u32,
     draws: u32,
-    /// In place of wedges: for all lights, or for pictures, whose shares don't go by area.
+    tables: Tables,
+    /// In place of wedges.
     mask: Option<Mask>,
     masks_all: bool,
     samples: u32,
@@ -56,23 +57,25 @@ impl Wedges {
             form: None,
             casting: 0,
             draws: 0,
+            tables: Tables::new(gpu, settings.choice("coverage") == "table"),
             mask: None,
             masks_all: settings.choice("combine") == "bitmask",
             samples: settings.int("samples") as u32,
         }
     }
 
-    fn key(view: &View<'_>, form: &Form, draw: Draw) -> Key {
+    fn key(&self, view: &View<'_>, form: &Form, draw: Draw) -> Key {
         let depth = lent_depth(view.receivers).map(|d| (d.texture().format(), is_reversed(view)));
-        Key { draw, depth, has_normals: view.receivers.has_normals, face: form.face }
+        Key { draw, depth, has_normals: view.receivers.has_normals, face: form.face, term: self.tables.term(form.face) }
     }
 
-    fn is_masked(&self, form: &Form) -> bool {
-        self.masks_all || form.face == Face::Picture
-    }
-
-    fn resolve_key(view: &View<'_>, form: &Form) -> Resolve {
-        Resolve { soft: !form.is_point(), has_normals: view.receivers.has_normals, face: form.face }
+    fn resolve_key(&self, view: &View<'_>, form: &Form) -> Resolve {
+        Resolve {
+            soft: !form.is_point(),
+            has_normals: view.receivers.has_normals,
+            face: form.face,
+            term: self.tables.term(form.face),
+        }
     }
 
     /// Makes room and pipelines.
@@ -92,9 +95,9 @@ impl Wedges {
         }
         self.pipelines.prepare_make(gpu, is_reversed(view));
         for draw in [Draw::Sides, Draw::Bodies] {
-            self.pipelines.prepare(gpu, Self::key(view, form, draw));
+            self.pipelines.prepare(gpu, self.key(view, form, draw));
         }
-        self.pipelines.prepare_resolve(gpu, Self::resolve_key(view, form));
+        self.pipelines.prepare_resolve(gpu, self.resolve_key(view, form));
         Ok(())
     }
 
@@ -138,16 +141,17 @@ impl Wedges {
         let mut pass = passes.render("wedges", &[attachment(&target.view, clear)], depth);
         pass.set_bind_group(0, &view.receivers.bind_group, &[]);
         pass.set_bind_group(1, &buffers.draw, &[]);
+        pass.set_bind_group(2, self.tables.group(self.tables.term(form.face)), &[]);
         let mut draws = 0;
         if let (Some(pipeline), Some((arguments, offset))) =
-            (self.pipelines.drawing(Self::key(view, form, Draw::Sides)), self.silhouettes.arguments(Part::PassSides))
+            (self.pipelines.drawing(self.key(view, form, Draw::Sides)), self.silhouettes.arguments(Part::PassSides))
         {
             pass.set_pipeline(pipeline);
             pass.set_index_buffer(self.silhouettes.corner_indices().slice(..), wgpu::IndexFormat::Uint16);
             pass.draw_indexed_indirect(arguments, offset);
             draws += 1;
         }
-        if let Some(pipeline) = self.pipelines.drawing(Self::key(view, form, Draw::Bodies)).filter(|_| !form.is_point())
+        if let Some(pipeline) = self.pipelines.drawing(self.key(view, form, Draw::Bodies)).filter(|_| !form.is_point())
         {
             pass.set_pipeline(pipeline);
             pass.set_index_buffer(self.body_indices.slice(..), wgpu::IndexFormat::Uint16);
@@ -164,12 +168,13 @@ impl Technique for Wedges {
             let what = "parallel projections, since shadows are counted from the eye; choose `volume` or a map".into();
             return Err(Error::Unsupported { technique: super::INFO.id.into(), what });
         }
-        let has_picture = matches!(view.light.shape, LightShape::Rect { texture: Some(_), .. });
+        // Masks have the picture in their samples.
+        let has_picture = !self.masks_all && self.tables.prepare(gpu, view);
         let form = Form::of(&view.light.shape, has_picture, self.point_radius);
         self.casting = view.casters.casting().len() as u32;
         self.selection.choose(gpu, view, &form, ROUNDING)?;
         let is_lit = self.selection.throws.is_empty();
-        if !is_lit && self.is_masked(&form) {
+        if !is_lit && self.masks_all {
             let mask = self.mask.get_or_insert_with(|| Mask::new(gpu, self.samples));
             mask.prepare(gpu, view, &form, &self.selection, ROUNDING)?;
         } else if !is_lit {
@@ -187,7 +192,7 @@ impl Technique for Wedges {
             drop(passes.render("visibility", &[visibility.overwrite()], None));
             return Ok(());
         };
-        if let Some(mask) = self.mask.as_mut().filter(|_| self.masks_all || form.face == Face::Picture) {
+        if let Some(mask) = self.mask.as_mut() {
             mask.record(passes, view, &form, ROUNDING, visibility);
             self.draws = 1;
             return Ok(());
@@ -195,11 +200,12 @@ impl Technique for Wedges {
         self.build(passes, view, edges, &form);
         self.draws = self.add_up(passes, view, &form);
         let mut pass = passes.render("visibility", &[visibility.overwrite()], None);
-        if let (Some(pipeline), Some(target)) = (self.pipelines.resolving(Self::resolve_key(view, &form)), &self.target)
+        if let (Some(pipeline), Some(target)) = (self.pipelines.resolving(self.resolve_key(view, &form)), &self.target)
         {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &view.receivers.bind_group, &[]);
             pass.set_bind_group(1, &target.resolve, &[]);
+            pass.set_bind_group(2, self.tables.group(self.tables.term(form.face)), &[]);
             pass.draw(0..3, 0..1);
             self.draws += 1;
         }
@@ -216,6 +222,7 @@ impl Technique for Wedges {
             casters_culled: self.casting.saturating_sub(thrown),
             bytes: own
                 + self.mask.as_ref().map_or(0, Mask::bytes)
+                + self.tables.bytes()
                 + self.silhouettes.bytes()
                 + self.body_indices.size(),
         }
