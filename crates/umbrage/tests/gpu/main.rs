@@ -18,3 +18,4 @@ mod volume;
 mod warped;
 mod wedges;
 mod wedges_tables;
+mod wedges_views;

@@ -9,6 +9,7 @@ mod select;
 mod tables;
 mod targets;
 mod technique;
+mod views;
 
 use crate::casters::{EDGES_WGSL, INSTANCES_WGSL, Instance};
 use crate::depth_maps::Eye;
@@ -95,7 +96,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     features: wgpu::Features::empty(),
     hard: false,
     params: PARAMS,
-    views: &[],
+    views: views::NAMES,
     shaders: &[
         FIND_SHADER,
         MAKE_SHADER,
@@ -105,6 +106,8 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
         tables::TABLE_SHADER,
         tables::PICTURE_SHADER,
         tables::RESOLVE_PICTURE_SHADER,
+        views::VIEWS_SHADER,
+        views::BODIES_SHADER,
         mask::MASK_SHADER,
     ],
     readme: include_str!("README.md"),

@@ -180,7 +180,7 @@ impl Pipelines {
 }
 
 /// What is behind all of a body is in no wedge.
-fn compare(tests: bool, reversed: bool) -> wgpu::CompareFunction {
+pub(super) fn compare(tests: bool, reversed: bool) -> wgpu::CompareFunction {
     match (tests, reversed) {
         (false, _) => wgpu::CompareFunction::Always,
         (true, true) => wgpu::CompareFunction::LessEqual,

@@ -6,12 +6,13 @@ use super::pipelines::{Draw, Key, Pipelines, Resolve};
 use super::select::Selection;
 use super::tables::Tables;
 use super::targets::{Buffers, GROUP, Target, lent_depth};
+use super::views::{Drawn, Views};
 use crate::casters::Edges;
 use crate::depth_maps::Eye;
 use crate::fullscreen::attachment;
 use crate::params::Settings;
 use crate::silhouettes::{Extrude, Part, Silhouettes, Style};
-use crate::technique::{Stats, Technique};
+use crate::technique::{DebugView, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
 use umbrage_core::glam::DVec3;
 
@@ -31,6 +32,8 @@ pub(super) struct Wedges {
     mask: Option<Mask>,
     masks_all: bool,
     samples: u32,
+    gpu: Gpu,
+    views: Option<Views>,
 }
 
 /// Workgroups in a row, the most that every adapter allows.
@@ -61,6 +64,8 @@ impl Wedges {
             mask: None,
             masks_all: settings.choice("combine") == "bitmask",
             samples: settings.int("samples") as u32,
+            gpu: gpu.clone(),
+            views: None,
         }
     }
 
@@ -160,6 +165,27 @@ impl Wedges {
         }
         draws
     }
+
+    /// The debug view that was asked for.
+    fn record_view(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) {
+        if let Some(mut views) = self.views.take() {
+            views.record(passes, view, visibility, self.drawn(view).as_ref());
+            self.views = Some(views);
+        }
+    }
+
+    /// What debug views show: nothing where no wedges are drawn.
+    fn drawn(&self, view: &View<'_>) -> Option<Drawn<'_>> {
+        let is_drawn = !self.masks_all && !self.selection.throws.is_empty();
+        let form = self.form.filter(|form| is_drawn && !form.is_point())?;
+        Some(Drawn {
+            buffers: self.buffers.as_ref()?,
+            indices: &self.body_indices,
+            key: self.key(view, &form, Draw::Bodies),
+            tables: self.tables.group(self.tables.term(form.face)),
+            layout: &self.pipelines.draw_layout,
+        })
+    }
 }
 
 impl Technique for Wedges {
@@ -190,11 +216,13 @@ impl Technique for Wedges {
         let edges = view.casters.made_edges().filter(|_| !self.selection.throws.is_empty());
         let (Some(edges), Some(form)) = (edges, self.form) else {
             drop(passes.render("visibility", &[visibility.overwrite()], None));
+            self.record_view(passes, view, visibility);
             return Ok(());
         };
         if let Some(mask) = self.mask.as_mut() {
             mask.record(passes, view, &form, ROUNDING, visibility);
             self.draws = 1;
+            self.record_view(passes, view, visibility);
             return Ok(());
         }
         self.build(passes, view, edges, &form);
@@ -209,6 +237,8 @@ impl Technique for Wedges {
             pass.draw(0..3, 0..1);
             self.draws += 1;
         }
+        drop(pass);
+        self.record_view(passes, view, visibility);
         Ok(())
     }
 
@@ -226,6 +256,14 @@ impl Technique for Wedges {
                 + self.silhouettes.bytes()
                 + self.body_indices.size(),
         }
+    }
+
+    fn inspect(&mut self, view: Option<&str>) {
+        self.views = view.and_then(|name| Views::new(&self.gpu, name));
+    }
+
+    fn debug_views(&self) -> Vec<DebugView<'_>> {
+        self.views.iter().filter_map(Views::picture).collect()
     }
 }
 
