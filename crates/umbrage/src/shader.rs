@@ -6,6 +6,8 @@ use crate::gpu::Gpu;
 pub const FULLSCREEN: &str = include_str!("wgsl/fullscreen.wgsl");
 /// `wgsl/receivers.wgsl`: group 0, the visible surfaces.
 pub const RECEIVERS: &str = concat!(include_str!("wgsl/pack_normal.wgsl"), include_str!("wgsl/receivers.wgsl"));
+/// `wgsl/inspect.wgsl`: what pictures of a technique's inside are drawn over. After [`RECEIVERS`].
+pub const INSPECT: &str = include_str!("wgsl/inspect.wgsl");
 /// `wgsl/map_visibility.wgsl`: the full-screen pass around a technique's `lit_share`. After [`MAP_LOOKUP`].
 pub const MAP_VISIBILITY: &str = include_str!("wgsl/map_visibility.wgsl");
 /// `wgsl/map_quick.wgsl`: the first of two phases, around a technique's `quick_share`. After [`MAP_VISIBILITY`].

@@ -202,7 +202,7 @@ fn across_the_centre_a_term_jumps_by_one() {
 
 #[test]
 fn a_textured_square_of_one_weight_is_a_square() {
-    let table = TexturedTable::new(|_, _| 3.0, 16).expect("it has weight");
+    let table = TexturedTable::new(|_, _| 3.0, 16).expect("it gives light");
     let mut worst: f64 = 0.0;
     for i in 0..2000 {
         let at = |k: usize| ((i * 5 + k) as f64 * 0.754_877_666_f64 * (k + 1) as f64).fract() * 3.0 - 1.5;
@@ -216,7 +216,7 @@ fn a_textured_square_of_one_weight_is_a_square() {
 #[test]
 fn a_textured_square_counts_where_its_weight_is() {
     // All of the light comes from the left half; a caster covers x > 0 and so nothing of it.
-    let table = TexturedTable::new(|x, _| if x < 0.0 { 1.0 } else { 0.0 }, 16).expect("it has weight");
+    let table = TexturedTable::new(|_, high| if high[0] <= 0.0 { 1.0 } else { 0.0 }, 16).expect("it gives light");
     let polygon = [[0.02, -2.0, 0.5], [2.0, -2.0, 0.5], [2.0, 2.0, 0.5], [0.02, 2.0, 0.5]];
     let sum = |polygon: &[Solid]| -> f64 {
         let edges = (0..polygon.len()).map(|i| (polygon[i], polygon[(i + 1) % polygon.len()]));
@@ -226,4 +226,56 @@ fn a_textured_square_counts_where_its_weight_is() {
     let mirrored = [[-2.0, -2.0, 0.5], [-0.02, -2.0, 0.5], [-0.02, 2.0, 0.5], [-2.0, 2.0, 0.5]];
     assert!((sum(&mirrored) - 0.96).abs() < 0.01, "{}", sum(&mirrored));
     assert!(TexturedTable::new(|_, _| 0.0, 8).is_none());
+}
+
+/// A dot in the corner where the way around the square starts: chords that cut it off pass over the start.
+#[test]
+fn a_sector_over_the_start_of_the_way_around_has_its_light() {
+    let dot = |low: Flat, _: Flat| if low[0] > 0.9 && low[1] < -0.9 { 1.0 } else { 0.0 };
+    let table = TexturedTable::new(dot, 16).expect("it gives light");
+    // The corner is on the right, the centre on the left: what the centre counts for is taken back.
+    let cut = chord(Face::Square, [0.0, -1.5, 1.0], [1.5, 0.0, 1.0]).expect("it is on the square");
+    assert!((table.term(&cut) + 1.0).abs() < 0.03, "{}", table.term(&cut));
+}
+
+/// The share of a picture left of a line through the square, by points.
+fn share_by_points(picture: &impl Fn(f64, f64) -> f64, from: Flat, to: Flat) -> f64 {
+    let at = |i: usize| (2.0 * i as f64 + 1.0) / 400.0 - 1.0;
+    let way = [to[0] - from[0], to[1] - from[1]];
+    let (mut left, mut all) = (0.0, 0.0);
+    for (x, y) in (0..160_000).map(|i| (at(i % 400), at(i / 400))) {
+        let w = picture(x, y);
+        all += w;
+        left += if cross(way, [x - from[0], y - from[1]]) > 0.0 { w } else { 0.0 };
+    }
+    left / all
+}
+
+#[test]
+fn how_far_tables_of_pictures_are_off() {
+    let tiles = |x: f64, y: f64| f64::from(((x + 1.0) * 2.0) as u32 % 2 ^ ((y + 1.0) * 2.0) as u32 % 2);
+    let dot = |x: f64, y: f64| if (x - 0.5).hypot(y - 0.25) < 0.3 { 1.0 } else { 0.0 };
+    let bars = |x: f64, _: f64| f64::from(((x + 1.0) * 3.5) as u32 % 2);
+    let pictures: [(&str, &dyn Fn(f64, f64) -> f64); 3] = [("tiles", &tiles), ("dot", &dot), ("bars", &bars)];
+    for side in [16, 24, 32] {
+        for (name, picture) in pictures {
+            let middle = |a: Flat, b: Flat| picture(0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]));
+            let table = TexturedTable::new(middle, side).expect("it gives light");
+            let (mut worst, mut sum) = (0.0f64, 0.0);
+            for i in 0..200 {
+                let angle = i as f64 * 2.4;
+                let d = 0.9 * (i as f64 * 0.618_034).fract();
+                let (n, t) = ([angle.cos(), angle.sin()], [-angle.sin(), angle.cos()]);
+                let p = |s: f64| [n[0] * d + t[0] * s, n[1] * d + t[1] * s];
+                let (from, to) = (p(-4.0), p(4.0));
+                let c = chord(Face::Square, [from[0], from[1], 1.0], [to[0], to[1], 1.0]).expect("it crosses");
+                let got = f64::from(u8::from(c.is_left)) + table.term(&c);
+                let off = (got - share_by_points(&picture, from, to)).abs();
+                worst = worst.max(off);
+                sum += off / 200.0;
+            }
+            println!("{name} {side}: worst {worst:.4} mean {sum:.5}");
+            assert!(side != 24 || (worst < 0.015 && sum < 0.002), "{name}: worst {worst}, mean {sum}");
+        }
+    }
 }

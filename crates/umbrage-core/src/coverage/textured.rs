@@ -15,24 +15,29 @@ pub struct TexturedTable {
 const FINE: usize = 128;
 
 /// Points of a chord at which that is done.
-const ALONG: usize = 24;
+const ALONG: usize = 48;
 
 /// Steps around the square.
 const AROUND: usize = 512;
 
 impl TexturedTable {
-    /// `weight`: of the point (x, y) of the square, each −1…1; not negative, and of any scale. `side`: values along
-    /// each of four axes, at least 2; 16 make 64 Ki values, 32 make 1 Mi. `None` where nothing has weight.
-    pub fn new(weight: impl Fn(f64, f64) -> f64, side: usize) -> Option<Self> {
+    /// `share`: of all light, of any scale, that comes from the rectangle between two corners of the square, coordinates −1…1;
+    /// not negative. `side`: values along each of four axes, at least 2; 16 make 64 Ki values, 32 make 1 Mi. `None` where
+    /// nothing gives light.
+    pub fn new(share: impl Fn([f64; 2], [f64; 2]) -> f64, side: usize) -> Option<Self> {
         let side = side.max(2);
-        let rows = Rows::new(weight)?;
+        let rows = Rows::new(share)?;
         let at = |i: usize| 2.0 * i as f64 / (side - 1) as f64 - 1.0;
         let point = |i: usize| [at(i % side), at(i / side)];
         let spokes: Vec<f64> = (0..side * side).map(|i| rows.along([0.0; 2], point(i))).collect();
-        let mut triangles = Vec::with_capacity(spokes.len() * spokes.len());
-        for to in 0..spokes.len() {
-            let value = |from: usize| spokes[from] + rows.along(point(from), point(to)) - spokes[to];
-            triangles.extend((0..spokes.len()).map(|from| value(from) as f32));
+        let count = spokes.len();
+        let mut triangles = vec![0.0; count * count];
+        for (to, of_to) in spokes.iter().enumerate() {
+            for (from, of_from) in spokes[..to].iter().enumerate() {
+                let value = (of_from + rows.along(point(from), point(to)) - of_to) as f32;
+                triangles[to * count + from] = value;
+                triangles[from * count + to] = -value;
+            }
         }
         let border: Vec<[f64; 2]> = (0..=AROUND).map(|i| on_border(i as f64 / AROUND as f64)).collect();
         let spoke = |p: [f64; 2]| rows.along([0.0; 2], p);
@@ -86,14 +91,10 @@ impl TexturedTable {
     }
 
     fn sector(&self, chord: &Chord) -> f64 {
-        let [from, to] = [chord.from, chord.to].map(|p| self.up_to(around_square(p)));
-        let turn = chord.turn();
-        let way = to - from;
-        match turn >= 0.0 {
-            true if way < -1e-9 => way + 1.0,
-            false if way > 1e-9 => way - 1.0,
-            _ => way,
-        }
+        let [from, to] = [chord.from, chord.to].map(around_square);
+        // The way there may lead over the corner where counting starts, once.
+        let rounds = (chord.turn() - (to - from)).round();
+        self.up_to(to) - self.up_to(from) + rounds
     }
 
     fn up_to(&self, around: f64) -> f64 {
@@ -122,15 +123,16 @@ struct Rows {
 }
 
 impl Rows {
-    fn new(weight: impl Fn(f64, f64) -> f64) -> Option<Self> {
-        let middle = |i: usize| (2.0 * i as f64 + 1.0) / FINE as f64 - 1.0;
+    fn new(share: impl Fn([f64; 2], [f64; 2]) -> f64) -> Option<Self> {
+        let border = |i: usize| 2.0 * i as f64 / FINE as f64 - 1.0;
         let mut left = Vec::with_capacity(FINE * (FINE + 1));
         let mut all = 0.0;
         for row in 0..FINE {
             let mut sum = 0.0;
             left.push(0.0);
             for column in 0..FINE {
-                sum += weight(middle(column), middle(row)).max(0.0);
+                let (low, high) = ([border(column), border(row)], [border(column + 1), border(row + 1)]);
+                sum += share(low, high).max(0.0);
                 left.push(sum);
             }
             all += sum;

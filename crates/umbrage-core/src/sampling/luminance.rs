@@ -44,6 +44,28 @@ impl Luminance {
         let (_, x) = invert(&self.columns[row * width..(row + 1) * width], u.x);
         DVec2::new(x, y)
     }
+
+    /// The share of the whole brightness within a rectangle of the square, x along a row, y down from row 0.
+    pub fn within(&self, low: DVec2, high: DVec2) -> f64 {
+        let width = self.columns.len() / (self.rows.len() - 1);
+        let up_to = |row: usize, x: f64| interpolate(&self.columns[row * width..(row + 1) * width], x);
+        let height = (self.rows.len() - 1) as f64;
+        let first = (low.y.clamp(0.0, 1.0) * height) as usize;
+        let last = (high.y.clamp(0.0, 1.0) * height).ceil() as usize;
+        let of_row = |row: usize| {
+            let part = (high.y * height).min((row + 1) as f64) - (low.y * height).max(row as f64);
+            let share = (self.rows[row + 1] - self.rows[row]) * part.max(0.0);
+            share * (up_to(row, high.x) - up_to(row, low.x))
+        };
+        (first..last).map(of_row).sum()
+    }
+}
+
+/// A running sum at a place in [0, 1] over all cells.
+fn interpolate(sums: &[f64], at: f64) -> f64 {
+    let scaled = at.clamp(0.0, 1.0) * (sums.len() - 1) as f64;
+    let cell = (scaled as usize).min(sums.len() - 2);
+    sums[cell] + (sums[cell + 1] - sums[cell]) * (scaled - cell as f64)
 }
 
 /// Running sums of `weights` from 0 to 1, and the total before that scaling. Zeros only: all 0.
@@ -107,6 +129,16 @@ mod tests {
         for u in lattice(100) {
             assert!((luminance.sample(u) - u).length() < 1e-12);
         }
+    }
+
+    #[test]
+    fn rectangles_hold_their_pixels() {
+        let luminance = Luminance::of(&texture(2, 2, &[255, 255, 0, 255])).unwrap();
+        let within = |x: [f64; 2], y: [f64; 2]| luminance.within(DVec2::new(x[0], y[0]), DVec2::new(x[1], y[1]));
+        assert!((within([0.0, 1.0], [0.0, 1.0]) - 1.0).abs() < 1e-12);
+        assert!((within([0.0, 0.5], [0.5, 1.0])).abs() < 1e-12);
+        assert!((within([0.25, 0.75], [0.0, 1.0]) - 0.5).abs() < 1e-12);
+        assert!((within([0.5, 1.0], [0.25, 0.75]) - 1.0 / 3.0).abs() < 1e-12);
     }
 
     #[test]

@@ -17,3 +17,5 @@ mod steady;
 mod volume;
 mod warped;
 mod wedges;
+mod wedges_tables;
+mod wedges_views;

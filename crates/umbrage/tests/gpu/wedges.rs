@@ -25,7 +25,7 @@ const STORED: &[(&str, usize, f64)] = &[
     ("overlap", 0, 0.34),
 ];
 
-fn vs_hard(name: &str, light: usize, set: &str) -> Option<(f64, f64)> {
+pub fn vs_hard(name: &str, light: usize, set: &str) -> Option<(f64, f64)> {
     let chosen = stored("wedges on stored scenes", |scene, number| {
         number == light && scene.lights[light].shape.kind().is_soft() && !scene.name.is_empty()
     });
@@ -73,7 +73,7 @@ fn masks_are_exact_where_casters_overlap() {
 }
 
 /// A floor and an eight-pointed plate over it.
-fn star(light: LightShape) -> Scene {
+pub fn star(light: LightShape) -> Scene {
     let mut scene = scene("contact", 1.0);
     let corner = |i: usize| {
         let (angle, radius) = (i as f32 * std::f32::consts::PI / 8.0, if i.is_multiple_of(2) { 0.9 } else { 0.35 });

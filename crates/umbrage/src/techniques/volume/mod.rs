@@ -15,7 +15,7 @@ mod views;
 
 use crate::depth_maps::Eye;
 use crate::params::{Param, ParamKind};
-use crate::shader::{FULLSCREEN, RECEIVERS, Shader};
+use crate::shader::{FULLSCREEN, INSPECT, RECEIVERS, Shader};
 use crate::silhouettes::{EXTRUDE_LAYOUTS, EXTRUDE_PARTS, FIND_SHADER};
 use crate::technique::TechniqueInfo;
 use umbrage_core::LightKinds;
@@ -43,7 +43,7 @@ const VIEWS_SHADER: Shader = Shader {
 
 const VIEW_BASE_SHADER: Shader = Shader {
     name: "views of volumes, base",
-    parts: &[FULLSCREEN, RECEIVERS, include_str!("view_base.wgsl")],
+    parts: &[FULLSCREEN, RECEIVERS, INSPECT, include_str!("view_base.wgsl")],
     layouts: &[Eye::LAYOUT, views::ViewBase::LAYOUT],
 };
 

@@ -1,4 +1,4 @@
-// What pictures of volumes are drawn over, and numbers as colours. After `receivers.wgsl`.
+// What pictures of volumes are drawn over, and numbers as colours. After `inspect.wgsl`.
 
 struct ViewBase {
     eye: Eye,
@@ -12,29 +12,9 @@ struct ViewBase {
 @group(1) @binding(0) var<uniform> base: ViewBase;
 @group(1) @binding(1) var numbers: texture_2d<f32>;
 
-// The scene in dark greys, by how much surfaces face the eye.
-fn grey(at: vec4f) -> vec3f {
-    let depth = textureLoad(receiver_depth, vec2i(at.xy), 0);
-    if depth == base.eye.background_depth {
-        return vec3f(0.02);
-    }
-    let position = position_eye(base.eye, at.xy, depth);
-    let n = surface(base.eye, at.xy, depth).normal;
-    return vec3f(0.03 + 0.17 * abs(dot(normalize(n), normalize(position))));
-}
-
 @fragment
 fn scene(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    return vec4f(grey(at), 1.0);
-}
-
-// Black, violet, red, orange, yellow, white: equal steps look equally large.
-fn heat(t: f32) -> vec3f {
-    let x = saturate(t);
-    let r = saturate(x * 2.6);
-    let g = saturate(x * 1.9 - 0.55);
-    let b = saturate(0.55 * sin(min(x, 0.5) * 6.2831853)) + saturate(x * 3.0 - 2.0);
-    return vec3f(r, g, min(b, 1.0));
+    return vec4f(grey(base.eye, at), 1.0);
 }
 
 @fragment
@@ -48,7 +28,7 @@ fn heated(@builtin(position) at: vec4f) -> @location(0) vec4f {
 fn volumes(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let surfaces = textureLoad(numbers, vec2i(at.xy), 0).xy;
     let both = surfaces / (surfaces + 3.0);
-    return vec4f(grey(at) + both.x * vec3f(0.8, 0.34, 0.05) + both.y * vec3f(0.06, 0.3, 0.8), 1.0);
+    return vec4f(grey(base.eye, at) + both.x * vec3f(0.8, 0.34, 0.05) + both.y * vec3f(0.06, 0.3, 0.8), 1.0);
 }
 
 // Lit surfaces grey, shadows by how many there are: a colour for each number up to seven, then brighter to white;
@@ -57,7 +37,7 @@ fn volumes(@builtin(position) at: vec4f) -> @location(0) vec4f {
 fn numbered(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let number = i32(round(textureLoad(numbers, vec2i(at.xy), 0).x));
     if number == 0 {
-        return vec4f(grey(at) * 2.0, 1.0);
+        return vec4f(grey(base.eye, at) * 2.0, 1.0);
     }
     if number < 0 {
         return vec4f(1.0, 0.0, 1.0, 1.0);

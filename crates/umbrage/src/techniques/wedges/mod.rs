@@ -11,8 +11,10 @@ mod options;
 mod piece;
 mod pipelines;
 mod select;
+mod tables;
 mod targets;
 mod technique;
+mod views;
 
 use crate::casters::{EDGES_WGSL, INSTANCES_WGSL, Instance};
 use crate::depth_maps::Eye;
@@ -49,7 +51,15 @@ const DRAW_SHADER: Shader = Shader {
 
 const RESOLVE_SHADER: Shader = Shader {
     name: "wedge visibility",
-    parts: &[FULLSCREEN, RECEIVERS, LIGHT, include_str!("resolve.wgsl")],
+    parts: &[
+        FULLSCREEN,
+        RECEIVERS,
+        LIGHT,
+        COVERAGE,
+        include_str!("term_analytic.wgsl"),
+        include_str!("resolve.wgsl"),
+        include_str!("horizon_analytic.wgsl"),
+    ],
     layouts: &[WedgeLight::LAYOUT, Eye::LAYOUT],
 };
 
@@ -102,8 +112,15 @@ const PARAMS: &[Param] = &[
         kind: ParamKind::Int { min: 1, max: 3, default: 1 },
     },
     Param {
+        name: "coverage",
+        help: "Where the share that an edge covers of a ball, an ellipsoid, a disc or a sun comes from: a formula, or two look-ups of 32³ \
+               values. Textured rectangles always have a table, other lights none.",
+        unit: "",
+        kind: ParamKind::Choice { values: &["analytic", "table"] },
+    },
+    Param {
         name: "samples",
-        help: "Samples of the light with `combine = bitmask`, and of every textured rectangle; rounded up to a multiple of 32.",
+        help: "Samples of the light with `combine = bitmask`; rounded up to a multiple of 32.",
         unit: "",
         kind: ParamKind::Int { min: 32, max: 256, default: 64 },
     },
@@ -126,7 +143,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     features: wgpu::Features::empty(),
     hard: false,
     params: PARAMS,
-    views: &[],
+    views: views::NAMES,
     shaders: &[
         FIND_SHADER,
         MAKE_SHADER,
@@ -135,6 +152,11 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
         APART_SHADER,
         DEPTH_SHADER,
         RESOLVE_SHADER,
+        tables::TABLE_SHADER,
+        tables::PICTURE_SHADER,
+        tables::RESOLVE_PICTURE_SHADER,
+        views::VIEWS_SHADER,
+        views::BODIES_SHADER,
         mask::MASK_SHADER,
     ],
     readme: include_str!("README.md"),

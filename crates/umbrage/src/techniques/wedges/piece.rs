@@ -11,6 +11,7 @@ use super::pipelines::Key;
 use super::pipelines::Making;
 use super::pipelines::Pipelines;
 use super::select::Selection;
+use super::tables::Term;
 use super::targets::Buffers;
 use super::targets::GROUP;
 use super::targets::Needs;
@@ -38,6 +39,8 @@ const SIDE_INDICES: u32 = 6;
 
 pub(super) struct Piece {
     pub form: Form,
+    /// How shares of it are found.
+    pub term: Term,
     pub selection: Selection,
     pub silhouettes: Silhouettes,
     pub buffers: Option<Buffers>,
@@ -51,6 +54,8 @@ pub(super) struct Recording<'a> {
     pub pipelines: &'a Pipelines,
     pub target: &'a Target,
     pub body_indices: &'a wgpu::Buffer,
+    /// Tables that shares are looked up in.
+    pub tables: &'a wgpu::BindGroup,
     /// Reads what a loop or a caster comes to.
     pub apart: Option<&'a wgpu::BindGroup>,
 }
@@ -59,7 +64,7 @@ impl Piece {
     pub fn new(gpu: &Gpu, form: Form, options: &Options) -> Self {
         let extrude = if options.listed() { Extrude::Cpu } else { Extrude::Compute };
         let silhouettes = Silhouettes::new(gpu, extrude);
-        Self { form, selection: Selection::default(), silhouettes, buffers: None, groups: Vec::new() }
+        Self { form, term: Term::Analytic, selection: Selection::default(), silhouettes, buffers: None, groups: Vec::new() }
     }
 
     /// Silhouettes of the chosen casters, and room for their wedges.
@@ -196,12 +201,13 @@ impl Piece {
         if let Some(buffers) = &self.buffers {
             pass.set_bind_group(1, &buffers.draw, &[]);
         }
+        pass.set_bind_group(2, r.tables, &[]);
         pass
     }
 
     pub fn key(&self, view: &View<'_>, draw: Draw, target: &Target) -> Key {
         let depth = target.depth(view).map(|d| (d.texture().format(), is_reversed(view)));
-        Key { draw, depth: depth.filter(|_| !draw.is_apart()), face: self.form.face, split: self.is_split() }
+        Key { draw, depth: depth.filter(|_| !draw.is_apart()), face: self.form.face, term: self.term, split: self.is_split() }
     }
 
     /// All wedges at once, as the GPU counted them.

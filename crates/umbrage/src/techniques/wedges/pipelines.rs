@@ -2,12 +2,11 @@
 
 use super::APART_SHADER;
 use super::DEPTH_SHADER;
-use super::DRAW_SHADER;
 use super::EYE_SHADER;
 use super::MAKE_SHADER;
-use super::RESOLVE_SHADER;
 use super::draws::Draw;
 use super::light::Face;
+use super::tables::Term;
 use crate::casters::Edges;
 use crate::fullscreen::{FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, layout, texture};
 use crate::receivers::Receivers;
@@ -27,7 +26,6 @@ pub(super) struct Pipelines {
     pub loop_format: wgpu::TextureFormat,
     pub clamps: bool,
     silhouettes: wgpu::BindGroupLayout,
-    draw_module: wgpu::ShaderModule,
     making: Made<Making, wgpu::ComputePipeline>,
     drawing: Made<Key, wgpu::RenderPipeline>,
     resolving: Made<Resolve, wgpu::RenderPipeline>,
@@ -62,6 +60,7 @@ pub(super) struct Key {
     /// Of what bodies are compared with, where there is something, and whether near is 1 in it.
     pub depth: Option<(wgpu::TextureFormat, bool)>,
     pub face: Face,
+    pub term: Term,
     pub split: bool,
 }
 
@@ -71,6 +70,7 @@ pub(super) struct Resolve {
     pub soft: bool,
     pub has_normals: bool,
     pub face: Face,
+    pub term: Term,
     pub pieces: u32,
     pub scaled: bool,
 }
@@ -105,7 +105,6 @@ impl Pipelines {
             loop_format,
             clamps: gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL),
             silhouettes: silhouettes.clone(),
-            draw_module: DRAW_SHADER.module(gpu),
             making: Vec::new(),
             drawing: Vec::new(),
             resolving: Vec::new(),
@@ -162,9 +161,9 @@ impl Pipelines {
             ];
             let made = Fullscreen {
                 label: "wedge visibility",
-                module: &RESOLVE_SHADER.module(gpu),
+                module: &key.term.resolve_shader().module(gpu),
                 entry: "resolve",
-                groups: &[&Receivers::layout(gpu), &self.resolve_layout],
+                groups: &[&Receivers::layout(gpu), &self.resolve_layout, &key.term.layout(gpu)],
                 target: VisibilityTarget::FORMAT.into(),
                 constants: &constants,
             };
@@ -201,6 +200,7 @@ impl Pipelines {
 
     fn draw(&self, gpu: &Gpu, key: Key) -> wgpu::RenderPipeline {
         let how = key.draw.how();
+        let module = key.term.draw_shader().module(gpu);
         let vertex_constants = [("CLAMPS", on(self.clamps))];
         let fragment_constants = [("FACE", f64::from(key.face as u32)), ("SPLIT", on(key.split))];
         let stages = Stages {
@@ -208,7 +208,7 @@ impl Pipelines {
             fragment_constants: if how.shares { &fragment_constants } else { &[] },
             cull_mode: how.cull_mode,
             unclipped_depth: self.clamps && how.is_body,
-            ..Stages::new(&self.draw_module, how.vertex, how.fragment)
+            ..Stages::new(&module, how.vertex, how.fragment)
         };
         let depth = key.depth.map(|(format, reversed)| wgpu::DepthStencilState {
             format,
@@ -217,7 +217,7 @@ impl Pipelines {
             stencil: how.stencil.clone(),
             bias: Default::default(),
         });
-        let groups = [&Receivers::layout(gpu), &self.draw_layout];
+        let groups = [&Receivers::layout(gpu), &self.draw_layout, &key.term.layout(gpu)];
         stages.pipeline(gpu, &groups, depth, Some(how.target(self)))
     }
 
@@ -252,7 +252,7 @@ impl Pipelines {
 }
 
 /// What is behind all of a body is in no wedge.
-fn compare(tests: bool, reversed: bool) -> wgpu::CompareFunction {
+pub(super) fn compare(tests: bool, reversed: bool) -> wgpu::CompareFunction {
     match (tests, reversed) {
         (false, _) => wgpu::CompareFunction::Always,
         (true, true) => wgpu::CompareFunction::LessEqual,

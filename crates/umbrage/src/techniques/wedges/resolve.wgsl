@@ -15,25 +15,11 @@ override PIECES: u32 = 1u;
 override SCALED: bool = false;
 
 override SOFT: bool = true;
-override FACE: u32 = BALL;
-
-const PI: f32 = 3.14159265358979;
 
 // Of a disc of radius 1 the share beyond a line at this distance from its centre.
 fn beyond_on_disc(distance: f32) -> f32 {
     let d = clamp(distance, -1.0, 1.0);
     return (acos(d) - d * sqrt(1.0 - d * d)) / PI;
-}
-
-// Of the square between −1 and 1 the share where x a + y b + c < 0.
-fn beyond_on_square(line: vec3f) -> f32 {
-    let a = max(max(abs(line.x), abs(line.y)), 1e-30);
-    let b = max(min(abs(line.x), abs(line.y)), 1e-4 * a);
-    let c = abs(line.z);
-    let one = max(a + b - c, 0.0);
-    let other = max(a - b - c, 0.0);
-    let share = (one * one - other * other) / (8.0 * a * b);
-    return select(1.0 - share, share, line.z >= 0.0);
 }
 
 // The share of the light that is below the surface's own plane, whose normal is given in light space.
@@ -54,13 +40,17 @@ fn below_horizon(p: vec3f, normal: vec3f) -> f32 {
     return beyond_on_square(vec3f(normal.xy, height));
 }
 
-// What casters cover, of a place in the buffer of shares.
+// What casters cover of a piece, of a place in the buffer of shares.
+fn covered_of(piece: u32, at: vec2i) -> f32 {
+    // Both sides of a body cover the same, but for holes.
+    let sides = vec2f(eye_count[piece]) + textureLoad(covered, at, piece, 0).xy;
+    return clamp(max(sides.x, sides.y), 0.0, 1.0);
+}
+
 fn covered_at(at: vec2i) -> f32 {
     var sum = 0.0;
     for (var i = 0u; i < PIECES; i++) {
-        // Both sides of a body cover the same, but for holes.
-        let sides = vec2f(eye_count[i]) + textureLoad(covered, at, i, 0).xy;
-        sum += weights[i] * clamp(max(sides.x, sides.y), 0.0, 1.0);
+        sum += weights[i] * covered_of(i, at);
     }
     return sum;
 }
@@ -124,4 +114,17 @@ fn resolve(@builtin(position) at: vec4f) -> @location(0) f32 {
         share = max(share, select(0.0, below_horizon(p, normal), surface.casts));
     }
     return 1.0 - clamp(share, 0.0, 1.0);
+}
+
+// What is seen of each piece of the light, side by side.
+@fragment
+fn mosaic(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    let columns = ceil(sqrt(f32(PIECES)));
+    let rows = ceil(f32(PIECES) / columns);
+    let size = vec2f(textureDimensions(covered));
+    let place = at.xy / size * vec2f(columns, rows);
+    let piece = u32(floor(place.y) * columns + floor(place.x));
+    let seen = 1.0 - covered_of(min(piece, PIECES - 1u), vec2i(fract(place) * size));
+    let is_piece = piece < PIECES && all(fract(place) > vec2f(0.004));
+    return vec4f(vec3f(select(0.0, seen, is_piece)), 1.0);
 }

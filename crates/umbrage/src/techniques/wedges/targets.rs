@@ -219,7 +219,7 @@ fn own_depth_format(gpu: &Gpu, stencil: bool) -> wgpu::TextureFormat {
 }
 
 /// The receivers' own depth buffer where wedges can be compared with it.
-fn lent_depth(receivers: &Receivers) -> Option<&wgpu::TextureView> {
+pub(super) fn lent_depth(receivers: &Receivers) -> Option<&wgpu::TextureView> {
     if let Some(both) = &receivers.stencil {
         return Some(both);
     }

@@ -1,31 +1,37 @@
 //! A frame: choose casters, find silhouettes, build wedges, add up what they cover, resolve.
 
 use super::budget::Budget;
-use super::light::Face;
 use super::light::Form;
 use super::light::Frame;
 use super::mask::Mask;
 use super::options::Combine;
+use super::draws::Draw;
 use super::options::Options;
 use super::piece::Piece;
 use super::piece::ROUNDING;
 use super::piece::Recording;
+use super::piece::is_reversed;
+use super::pipelines::Key;
 use super::pipelines::Pipelines;
 use super::pipelines::Resolve;
 use super::select::Selection;
+use super::tables::Tables;
+use super::tables::Term;
 use super::targets::Buffers;
 use super::targets::GROUP;
 use super::targets::Target;
 use super::targets::TargetKey;
 use super::targets::Whole;
+use super::targets::lent_depth;
+use super::views::Drawn;
+use super::views::Views;
 use crate::casters::Edges;
 use crate::depth_maps::Eye;
 use crate::fullscreen::bind;
 use crate::params::Settings;
 use crate::silhouettes::Part;
-use crate::technique::{Stats, Technique};
+use crate::technique::{DebugView, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
-use umbrage_core::LightShape;
 use umbrage_core::glam::DVec3;
 
 pub(super) struct Wedges {
@@ -40,11 +46,14 @@ pub(super) struct Wedges {
     /// Reads what a loop or a caster came to, with what it was made of.
     apart: Vec<(wgpu::TextureView, wgpu::Buffer, wgpu::BindGroup)>,
     budget: Budget,
-    /// In place of wedges: for all lights, or for pictures, whose shares don't go by area.
+    tables: Tables,
+    /// In place of wedges.
     mask: Option<Mask>,
     mask_selection: Selection,
     casting: u32,
     draws: u32,
+    gpu: Gpu,
+    views: Option<Views>,
 }
 
 /// Of the six corners of a body the triangles of its far face, front, back and both ends, counter-clockwise from outside.
@@ -63,23 +72,25 @@ impl Wedges {
             targets: Vec::new(),
             apart: Vec::new(),
             budget: Budget::new(options.budget_ms, options.scale),
+            tables: Tables::new(gpu, settings.choice("coverage") == "table"),
             mask: None,
             mask_selection: Selection::default(),
             casting: 0,
             draws: 0,
+            gpu: gpu.clone(),
+            views: None,
             options,
         })
     }
 
     /// Whether the light is drawn as samples and not as wedges.
-    fn is_masked(&self, form: &Form) -> bool {
-        self.options.combine == Combine::Bitmask || form.face == Face::Picture
+    fn is_masked(&self) -> bool {
+        self.options.combine == Combine::Bitmask
     }
 
     fn is_lit(&self) -> bool {
-        let masked = self.form.is_some_and(|form| self.is_masked(&form));
         let thrown = |piece: &Piece| !piece.selection.throws.is_empty();
-        if masked { self.mask_selection.throws.is_empty() } else { !self.pieces.iter().any(thrown) }
+        if self.is_masked() { self.mask_selection.throws.is_empty() } else { !self.pieces.iter().any(thrown) }
     }
 
     /// Cuts the light into its pieces, and chooses casters for each.
@@ -92,6 +103,7 @@ impl Wedges {
                 None => self.pieces.push(Piece::new(gpu, form, &self.options)),
             }
             let piece = &mut self.pieces[i];
+            piece.term = self.tables.term_of(&piece.form);
             piece.selection.choose(gpu, view, &piece.form, ROUNDING)?;
         }
         Ok(())
@@ -100,11 +112,11 @@ impl Wedges {
     /// Makes room and pipelines.
     fn make_ready(&mut self, gpu: &Gpu, view: &View<'_>, form: &Form) -> Result<(), Error> {
         let Some(layout) = self.pieces.first().map(|p| p.silhouettes.layout()) else { return Ok(()) };
+        let scales = self.scales();
         let pipelines = self.pipelines.get_or_insert_with(|| Pipelines::new(gpu, layout));
         for piece in &mut self.pieces {
             piece.prepare(gpu, view, pipelines, &self.options)?;
         }
-        let scales = self.options.scales();
         self.targets.truncate(scales.len());
         for (i, scale) in scales.iter().enumerate() {
             let scale = effective(view.receivers.size, *scale);
@@ -120,7 +132,8 @@ impl Wedges {
                 self.targets.truncate(i);
                 self.targets.push(Target::new(gpu, pipelines, key, &self.whole));
             }
-            prepare_pipelines(gpu, view, form, pipelines, &self.targets[i], &self.pieces, &self.options);
+            let resolve = resolve_key(view, form, self.tables.term(form.face), &self.targets[i]);
+            prepare_pipelines(gpu, view, resolve, pipelines, &self.targets[i], &self.pieces, &self.options);
         }
         self.prepare_apart(gpu);
         Ok(())
@@ -147,9 +160,14 @@ impl Wedges {
         self.apart = kept;
     }
 
+    /// Scales that may come up. Debug views are of the size of the picture.
+    fn scales(&self) -> &'static [u32] {
+        if self.views.is_some() { &[1] } else { self.options.scales() }
+    }
+
     /// The target of the scale that is chosen now.
     fn target(&self) -> Option<&Target> {
-        let scales = self.options.scales();
+        let scales = self.scales();
         let at = scales.iter().position(|s| *s == self.budget.scale()).unwrap_or(0);
         self.targets.get(at)
     }
@@ -170,7 +188,8 @@ impl Wedges {
             let apart = self.apart.iter().find(|(s, c, _)| Some(s) == target.apart.as_ref() && *c == buffers.eye_count);
             let apart = apart.map(|(.., group)| group);
             let (options, body_indices) = (&self.options, &self.body_indices);
-            let recording = Recording { options, pipelines, target, body_indices, apart };
+            let tables = self.tables.group(piece.term);
+            let recording = Recording { options, pipelines, target, body_indices, tables, apart };
             piece.build(passes, view, edges, &recording);
             if i == 0 {
                 draws += copy_depth(passes, view, pipelines, target, buffers);
@@ -180,13 +199,38 @@ impl Wedges {
         }
         self.upload(passes, view, form, target);
         let mut pass = passes.render("visibility", &[visibility.overwrite()], None);
-        if let Some(pipeline) = pipelines.resolving(resolve_key(view, form, target)) {
+        let term = self.tables.term(form.face);
+        if let Some(pipeline) = pipelines.resolving(resolve_key(view, form, term, target)) {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &view.receivers.bind_group, &[]);
             pass.set_bind_group(1, &target.resolve, &[]);
+            pass.set_bind_group(2, self.tables.group(term), &[]);
             pass.draw(0..3, 0..1);
         }
         draws + 1
+    }
+
+    /// The debug view that was asked for.
+    fn record_view(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) {
+        if let Some(mut views) = self.views.take() {
+            views.record(passes, view, visibility, self.drawn(view).as_ref());
+            self.views = Some(views);
+        }
+    }
+
+    /// What debug views show: nothing where no wedges are drawn.
+    fn drawn(&self, view: &View<'_>) -> Option<Drawn<'_>> {
+        let form = self.form.filter(|form| !self.is_masked() && !self.is_lit() && !form.is_point())?;
+        let (piece, target) = (self.pieces.first()?, self.target()?);
+        let resolve = resolve_key(view, &form, self.tables.term(form.face), target);
+        Some(Drawn {
+            pieces: self.pieces.iter().filter_map(|p| p.buffers.as_ref()).collect(),
+            indices: &self.body_indices,
+            key: Key { depth: compared_depth(view), ..piece.key(view, Draw::Bodies, target) },
+            tables: self.tables.group(piece.term),
+            layout: &self.pipelines.as_ref()?.draw_layout,
+            shares: (resolve, &target.resolve, &self.pipelines.as_ref()?.resolve_layout),
+        })
     }
 
     /// What resolving reads.
@@ -204,11 +248,12 @@ fn effective((width, height): (u32, u32), scale: u32) -> u32 {
     if width.min(height) < 2 * scale { 1 } else { scale }
 }
 
-fn resolve_key(view: &View<'_>, form: &Form, target: &Target) -> Resolve {
+fn resolve_key(view: &View<'_>, form: &Form, term: Term, target: &Target) -> Resolve {
     Resolve {
         soft: !form.is_point(),
         has_normals: view.receivers.has_normals,
         face: form.face,
+        term,
         pieces: target.key.pieces,
         scaled: target.key.scale > 1,
     }
@@ -217,7 +262,7 @@ fn resolve_key(view: &View<'_>, form: &Form, target: &Target) -> Resolve {
 fn prepare_pipelines(
     gpu: &Gpu,
     view: &View<'_>,
-    form: &Form,
+    resolve: Resolve,
     pipelines: &mut Pipelines,
     target: &Target,
     pieces: &[Piece],
@@ -231,7 +276,12 @@ fn prepare_pipelines(
     if let Some(depth) = &target.own_depth {
         pipelines.prepare_depth(gpu, depth.texture().format());
     }
-    pipelines.prepare_resolve(gpu, resolve_key(view, form, target));
+    pipelines.prepare_resolve(gpu, resolve);
+}
+
+/// Of the receivers' own depth, where it can be attached, the format and whether near is 1.
+fn compared_depth(view: &View<'_>) -> Option<(wgpu::TextureFormat, bool)> {
+    lent_depth(view.receivers).map(|d| (d.texture().format(), is_reversed(view)))
 }
 
 /// Makes the target's own depth, if it has one; gives the number of draws.
@@ -265,11 +315,12 @@ impl Technique for Wedges {
             let what = "parallel projections, since shadows are counted from the eye; choose `volume` or a map".into();
             return Err(Error::Unsupported { technique: super::INFO.id.into(), what });
         }
-        let has_picture = matches!(view.light.shape, LightShape::Rect { texture: Some(_), .. });
+        // Masks have the picture in their samples.
+        let has_picture = !self.is_masked() && self.tables.prepare(gpu, view);
         let form = Form::of(&view.light.shape, has_picture, self.options.point_radius);
         self.casting = view.casters.casting().len() as u32;
         self.form = Some(form);
-        if self.is_masked(&form) {
+        if self.is_masked() {
             self.mask_selection.choose(gpu, view, &form, ROUNDING)?;
             if !self.is_lit() {
                 let mask = self.mask.get_or_insert_with(|| Mask::new(gpu, self.options.samples));
@@ -287,21 +338,24 @@ impl Technique for Wedges {
         let edges = view.casters.made_edges().filter(|_| !self.is_lit());
         let (Some(edges), Some(form)) = (edges, self.form) else {
             drop(passes.render("visibility", &[visibility.overwrite()], None));
+            self.record_view(passes, view, visibility);
             return Ok(());
         };
-        let masked = self.is_masked(&form);
+        let masked = self.is_masked();
         if let Some(mask) = self.mask.as_mut().filter(|_| masked) {
             mask.record(passes, view, &form, ROUNDING, visibility);
             self.draws = 1;
+            self.record_view(passes, view, visibility);
             return Ok(());
         }
         self.draws = self.draw(passes, view, edges, &form, visibility);
+        self.record_view(passes, view, visibility);
         self.budget.frame(passes.last_ms());
         Ok(())
     }
 
     fn stats(&self) -> Stats {
-        let masked = self.form.is_some_and(|form| self.is_masked(&form));
+        let masked = self.is_masked();
         let thrown = |selection: &Selection| selection.throws.len() as u32;
         let thrown = match masked {
             true => thrown(&self.mask_selection),
@@ -315,7 +369,15 @@ impl Technique for Wedges {
             triangles: if masked { 0 } else { sides * 10 },
             casters_drawn: thrown,
             casters_culled: self.casting.saturating_sub(thrown),
-            bytes: pieces + targets + self.mask.as_ref().map_or(0, Mask::bytes) + self.body_indices.size(),
+            bytes: pieces + targets + self.tables.bytes() + self.mask.as_ref().map_or(0, Mask::bytes) + self.body_indices.size(),
         }
+    }
+
+    fn inspect(&mut self, view: Option<&str>) {
+        self.views = view.and_then(|name| Views::new(&self.gpu, name));
+    }
+
+    fn debug_views(&self) -> Vec<DebugView<'_>> {
+        self.views.iter().filter_map(Views::picture).collect()
     }
 }
