@@ -27,4 +27,4 @@ pub use footprint::{Aliasing, aliasing, footprint_colors, map_reach, reach_of, t
 pub use heat::heat;
 pub use interior::{REACH_PIXELS, interior};
 pub use score::{Comparison, Scores, TOLERANCE, score};
-pub use seam::seam;
+pub use seam::{around_borders, seam};

@@ -2,7 +2,9 @@
 
 use crate::error::{Error, same_size};
 use crate::score::difference;
-use umbrage_core::Image;
+use umbrage_core::glam::DVec2;
+use umbrage_core::light_view::{LightView, view_at};
+use umbrage_core::{Camera, Image};
 
 /// A border reaches over this share of its distance, before and behind it.
 const BAND: f64 = 0.05;
@@ -10,9 +12,23 @@ const BAND: f64 = 0.05;
 /// Shadow edges shorter than this, in pixels, on either side say nothing.
 const SHORTEST: f64 = 16.0;
 
+/// The pixels around borders: those for which another view counts somewhat nearer or farther on the same ray. `views` and `splits` are those of
+/// [`view_at`]; without splits there are no borders. `depth` is along the view direction, metres, 0 where nothing is.
+pub fn around_borders(views: &[LightView], splits: &[f64], camera: &Camera, depth: &Image<f32>) -> Image<bool> {
+    let (width, height) = depth.size();
+    let view = camera.view(width, height);
+    Image::from_fn(width, height, |x, y| {
+        let pixel = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
+        let ray = camera.ray(pixel, width, height) * f64::from(depth[(x, y)]);
+        let layer = |share: f64| view_at(views, splits, &view, camera.eye + ray * share).map(|v| v.layer);
+        let [nearer, farther] = [layer(1.0 / (1.0 + BAND)), layer(1.0 / (1.0 - BAND))];
+        depth[(x, y)] > 0.0 && !splits.is_empty() && nearer.zip(farther).is_some_and(|(a, b)| a != b)
+    })
+}
+
 /// How many times as far off shadow edges are around borders as elsewhere; 1 where a border can't be told.
 ///
-/// The borders are surfaces at `distances` along the view direction, where `depth` (metres, 0 where nothing is) is measured, too.
+/// Pixels `around` them are those of [`around_borders`].
 /// On either side the sum of |produced − reference| over the scored pixels is divided by the length of the shadow edges there:
 /// the sum of the reference's change from pixel to pixel. That is how many pixels an edge is off, for hard edges and for
 /// penumbras, however many of them there are; what is wrong where no edge is counts with it.
@@ -25,24 +41,21 @@ pub fn seam(
     produced: &Image<f32>,
     reference: &Image<f32>,
     mask: &Image<bool>,
-    depth: &Image<f32>,
-    distances: &[f64],
+    around: &Image<bool>,
 ) -> Result<Option<f64>, Error> {
     same_size("produced", produced, reference)?;
     same_size("mask", mask, reference)?;
-    same_size("depth", depth, reference)?;
-    let (mut around, mut elsewhere) = (Side::default(), Side::default());
+    same_size("around", around, reference)?;
+    let (mut near, mut elsewhere) = (Side::default(), Side::default());
     for (x, y) in (0..reference.height).flat_map(|y| (0..reference.width).map(move |x| (x, y))) {
         if !mask[(x, y)] {
             continue;
         }
-        let depth = f64::from(depth[(x, y)]);
-        let is_around = distances.iter().any(|border| (depth - border).abs() <= BAND * border);
-        let side = if is_around { &mut around } else { &mut elsewhere };
+        let side = if around[(x, y)] { &mut near } else { &mut elsewhere };
         side.error += difference(produced[(x, y)], reference[(x, y)]).abs();
         side.edges += change(reference, mask, x, y);
     }
-    Ok(around.offset().zip(elsewhere.offset()).filter(|(_, elsewhere)| *elsewhere > 0.0).map(|(a, e)| a / e))
+    Ok(near.offset().zip(elsewhere.offset()).filter(|(_, elsewhere)| *elsewhere > 0.0).map(|(a, e)| a / e))
 }
 
 /// Sums over some pixels.
@@ -74,6 +87,7 @@ fn change(reference: &Image<f32>, mask: &Image<bool>, x: u32, y: u32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use umbrage_core::glam::{DMat4, DVec3};
 
     const SIZE: (u32, u32) = (200, 100);
 
@@ -91,8 +105,16 @@ mod tests {
         move |x, _| (0.5 + ((x % every) as f32 - every as f32 / 2.0) / soft.max(1e-3)).clamp(0.0, 1.0)
     }
 
+    /// Around borders at these distances.
+    fn around(distances: &[f64]) -> Image<bool> {
+        let layers = 0..=distances.len() as u32;
+        let views: Vec<LightView> =
+            layers.map(|layer| LightView::of(DMat4::from_scale(DVec3::ZERO), 8, layer)).collect();
+        around_borders(&views, distances, &Camera::default(), &depth())
+    }
+
     fn found(produced: &Image<f32>, reference: &Image<f32>, distances: &[f64]) -> Option<f64> {
-        seam(produced, reference, &Image::filled(SIZE.0, SIZE.1, true), &depth(), distances)
+        seam(produced, reference, &Image::filled(SIZE.0, SIZE.1, true), &around(distances))
             .expect("pictures of one size")
     }
 
@@ -138,9 +160,9 @@ mod tests {
         assert_eq!(found(&off, &right, &[50.0]), None, "nothing is there");
         assert_eq!(found(&right, &right, &[15.0]), None, "no error");
         assert_eq!(found(&picture(|_, _| 0.9), &picture(|_, _| 1.0), &[15.0]), None, "no shadow");
-        let small = Image::filled(4, 4, 1.0);
+        let small = Image::filled(4, 4, true);
         let mask = Image::filled(SIZE.0, SIZE.1, true);
-        let wrong = seam(&right, &right, &mask, &small, &[]);
-        assert!(matches!(wrong, Err(Error::Size { name: "depth", .. })), "{wrong:?}");
+        let wrong = seam(&right, &right, &mask, &small);
+        assert!(matches!(wrong, Err(Error::Size { name: "around", .. })), "{wrong:?}");
     }
 }

@@ -13,7 +13,9 @@ use crate::{
 use std::{collections::BTreeMap, time::Duration};
 use umbrage::{Gpu, LightPass, Renderer, Technique};
 use umbrage_core::Image;
-use umbrage_metrics::{Comparison, Scores, aliasing, footprint_colors, heat, reach_of, score, seam, texel_footprint};
+use umbrage_metrics::{
+    Comparison, Scores, aliasing, around_borders, footprint_colors, heat, reach_of, score, seam, texel_footprint,
+};
 use umbrage_reference::Geometry;
 
 /// What all techniques on one light share.
@@ -135,9 +137,11 @@ impl Cell<'_> {
 
     /// For techniques with splits: how much worse shadows are around their borders.
     fn seam(&self, produced: &Image<f32>, renderer: &Renderer) -> Result<Option<f64>, Error> {
-        let splits = renderer.technique(0).map_or(&[][..], |technique| technique.split_distances());
+        let Some(technique) = renderer.technique(0) else { return Ok(None) };
+        let (views, splits) = (technique.light_views(), technique.split_distances());
+        let around = around_borders(views, splits, &self.source.scene.camera, &self.tracing.geometry.depth);
         let Truth { visibility, mask, .. } = self.truth;
-        Ok(seam(produced, visibility, mask, &self.tracing.geometry.depth, splits)?)
+        Ok(seam(produced, visibility, mask, &around)?)
     }
 
     fn renderer(&self, technique: Box<dyn Technique>) -> Result<Renderer, Error> {

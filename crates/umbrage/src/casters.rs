@@ -7,7 +7,7 @@
 use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{error::Error, gpu::Gpu, passes::Passes, shader::shader_struct};
 use poses::Poses;
-use std::{ops::Range, sync::Arc, sync::OnceLock};
+use std::{ops::Range, sync::OnceLock};
 use umbrage_core::glam::{DAffine3, DVec3, DVec4, Vec4};
 use umbrage_core::{Bounds, Mesh, Scene, scene_tree::SceneTree, solid::is_convex_solid};
 
@@ -19,6 +19,7 @@ mod moves;
 mod places;
 mod poses;
 mod sides;
+mod vertices;
 pub(crate) use draw_list::{DrawList, InstanceNumbers, Light, Surface};
 pub(crate) use edges::{EDGES_WGSL, Edge, Edges, MeshEdges};
 pub(crate) use eye_tree::Sight;
@@ -27,6 +28,8 @@ pub(crate) use moves::Moves;
 pub(crate) use places::Places;
 pub(crate) use poses::SHADERS;
 pub(crate) use sides::Sides;
+use vertices::Vertices;
+pub(crate) use vertices::{MeshPart, vertex_layouts};
 
 /// Declares `Instance` and how a vertex gets into the world.
 pub(crate) const INSTANCES_WGSL: &str = include_str!("wgsl/instances.wgsl");
@@ -83,54 +86,6 @@ pub struct Casters {
     poses: Poses,
     edges: OnceLock<Edges>,
     bytes: u64,
-}
-
-/// A mesh and where it lies in the shared buffers.
-pub(crate) struct MeshPart {
-    /// Without normals and texture coordinates; of a posed instance as it was bound.
-    pub mesh: Arc<Mesh>,
-    pub first_index: u32,
-    pub base_vertex: u32,
-}
-
-impl MeshPart {
-    fn indices(&self) -> Range<u32> {
-        self.first_index..self.first_index + self.mesh.indices.len() as u32
-    }
-}
-
-/// The contents of the vertex and index buffers.
-#[derive(Default)]
-struct Vertices {
-    positions: Vec<[f32; 3]>,
-    /// Normal and texture coordinate.
-    attributes: Vec<[f32; 5]>,
-    indices: Vec<u32>,
-    welded: Vec<u32>,
-}
-
-impl Vertices {
-    fn add(&mut self, mesh: &Mesh) -> MeshPart {
-        let first_index = self.indices.len() as u32;
-        self.indices.extend(&mesh.indices);
-        self.welded.extend(mesh.welded_indices());
-        let base_vertex = self.pose(mesh);
-        let (positions, indices, weights) = (mesh.positions.clone(), mesh.indices.clone(), mesh.weights.clone());
-        let mesh = Arc::new(Mesh { positions, indices, weights, ..Mesh::default() });
-        MeshPart { mesh, first_index, base_vertex }
-    }
-
-    /// Adds vertices alone.
-    fn pose(&mut self, mesh: &Mesh) -> u32 {
-        let base_vertex = self.positions.len() as u32;
-        self.positions.extend(mesh.positions.iter().map(|p| p.to_array()));
-        self.attributes.extend((0..mesh.positions.len()).map(|i| {
-            let n = mesh.normals.get(i).copied().unwrap_or_default();
-            let uv = mesh.uvs.get(i).copied().unwrap_or_default();
-            [n.x, n.y, n.z, uv.x, uv.y]
-        }));
-        base_vertex
-    }
 }
 
 /// Instances of one mesh with one texture: one draw.
@@ -456,21 +411,6 @@ impl Casters {
     pub fn receiving_bounds(&self) -> impl Iterator<Item = Bounds> + '_ {
         self.placed.iter().filter(|p| p.receives).map(|p| p.bounds)
     }
-}
-
-/// The vertex buffers of a pass that draws casters: positions and instance numbers, and attributes where `textured`.
-pub(crate) fn vertex_layouts(textured: bool) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
-    const POSITION: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![0 => Float32x3];
-    const NUMBER: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![1 => Uint32];
-    const ATTRIBUTES: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![2 => Float32x3, 3 => Float32x2];
-    let layout =
-        |array_stride, step_mode, attributes| Some(wgpu::VertexBufferLayout { array_stride, step_mode, attributes });
-    let mut layouts =
-        vec![layout(12, wgpu::VertexStepMode::Vertex, POSITION), layout(4, wgpu::VertexStepMode::Instance, NUMBER)];
-    if textured {
-        layouts.push(layout(20, wgpu::VertexStepMode::Vertex, ATTRIBUTES));
-    }
-    layouts
 }
 
 /// True where a placed mesh keeps its winding, and enough thickness that rounding can't turn it.

@@ -1,8 +1,8 @@
 //! What a technique is.
 
 use crate::{
-    error::Error, gpu::Gpu, params::Param, params::Settings, passes::Passes, shader::Shader, view::View,
-    visibility::VisibilityTarget,
+    error::Error, gpu::Gpu, params::Param, params::ParamKind, params::Settings, passes::Passes, shader::Shader,
+    techniques::techniques, view::View, visibility::VisibilityTarget,
 };
 use umbrage_core::{LightKind, LightKinds, light_view::LightView};
 
@@ -53,7 +53,8 @@ pub trait Technique: Send {
     }
 
     /// Distances along the camera's view at which one of [`Technique::light_views`] gives way to the next, metres, ascending;
-    /// empty where views are not chosen by that. Between distances number i − 1 and i the view of layer i counts.
+    /// empty where views are not chosen by that. Between distances number i − 1 and i the view of layer i counts, or that of layer i − 1
+    /// where it goes on, see [`umbrage_core::light_view::view_at`].
     fn split_distances(&self) -> &[f64] {
         &[]
     }
@@ -142,7 +143,24 @@ impl TechniqueInfo {
     /// # Errors
     /// [`Error::Unknown`] and [`Error::Setting`].
     pub fn settings(&self, set: &[(String, String)]) -> Result<Settings, Error> {
-        Settings::parse(self.id, self.params, set)
+        Settings::parse(self.id, self.params, set).map_err(|error| self.naming_others(error))
+    }
+
+    /// A word that other techniques know for the same parameter: their names are the way out.
+    fn naming_others(&self, mut error: Error) -> Error {
+        if let Error::Setting { name, value, expected, .. } = &mut error {
+            let knows = |p: &Param| {
+                p.name == name && matches!(p.kind, ParamKind::Choice { values } if values.contains(&value.as_str()))
+            };
+            let others: Vec<_> = techniques().iter().filter(|t| t.params.iter().any(knows)).map(|t| t.id).collect();
+            if !others.is_empty() {
+                expected.push_str(&format!(
+                    "; choose one of these, or a technique that can do `{value}`: {}",
+                    others.join(", ")
+                ));
+            }
+        }
+        error
     }
 
     /// A technique with these settings.

@@ -6,7 +6,7 @@ use super::rect::Steps;
 use super::{Fit, FitScene, LightView, Omni, fit as fit_light, parallel, perspective};
 use crate::splits::split_distances;
 use crate::{bounds::Bounds, camera::CameraView, frustum::Frustum, light::LightShape};
-use glam::{DVec3, DVec4};
+use glam::{DVec2, DVec3, DVec4};
 
 /// How a camera's view is split, and what the maps of its parts cover.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,12 +88,17 @@ pub fn fit_cascades(
     None
 }
 
+/// A distance from the eye that nothing is beyond: the same for most places of the camera near each other.
+fn reach(camera: &CameraView, scene: &FitScene) -> f64 {
+    let farthest = scene.around.corners().map(|c| c.distance(camera.eye)).into_iter().fold(0.0, f64::max);
+    RANGE_STEP.powf(farthest.max(f64::MIN_POSITIVE).log(RANGE_STEP).ceil())
+}
+
 /// Where shadows begin and end along the view.
 fn range(camera: &CameraView, seen: &Frustum, scene: &FitScene, cascades: &Cascades) -> Option<[f64; 2]> {
     let limit = if cascades.distance > 0.0 { cascades.distance } else { f64::INFINITY };
     if let Cover::Steady { .. } = cascades.cover {
-        let farthest = scene.around.corners().map(|c| c.distance(camera.eye)).into_iter().fold(0.0, f64::max);
-        let far = RANGE_STEP.powf(farthest.max(f64::MIN_POSITIVE).log(RANGE_STEP).ceil()).min(limit);
+        let far = reach(camera, scene).min(limit);
         let near = Frustum::of(&camera.clip_from_view).corners().iter().map(|c| -c.z).fold(f64::INFINITY, f64::min);
         let near = if near.is_finite() { near.max(NEAREST * far) } else { NEAREST * far };
         return Some([near.min(far), far]);
@@ -131,10 +136,15 @@ impl Part<'_> {
     fn steady(&self, ends: [f64; 2], steps: &Steps) -> Option<LightView> {
         let center = self.light.center();
         if center.w == 0.0 {
-            let ball = ball(self.camera, ends);
-            return Some(parallel::steady(-center.truncate(), ball, self.scene, steps, self.fit));
+            let ball = ball(self.camera, ends, reach(self.camera, self.scene));
+            let view = parallel::steady(-center.truncate(), ball, self.scene, steps, self.fit);
+            // Half of the map's width is 1.
+            let soft_texels =
+                self.fit.border_m * view.clip_from_world.row(0).truncate().length() * 0.5 * f64::from(view.size);
+            return Some(LightView { steady_border: Some(self.fit.border_texels + soft_texels), ..view });
         }
-        self.view(&self.slice(ends), self.scene).map(|view| perspective::steady(&view, steps, self.fit))
+        let view = self.view(&self.slice(ends), self.scene).map(|view| perspective::steady(&view, steps, self.fit))?;
+        Some(LightView { steady_border: Some(self.fit.border_texels), ..view })
     }
 
     fn view(&self, slice: &Frustum, scene: &FitScene) -> Option<LightView> {
@@ -159,22 +169,35 @@ fn between(forward: DVec3, eye: DVec3, [from, to]: [f64; 2]) -> Frustum {
     Frustum::bounded_by(vec![plane(forward, -from), plane(-forward, to)])
 }
 
-/// Middle and radius of a ball around what the camera may see between two distances. The radius depends on the projection and the
-/// distances alone, not on where the camera looks, to the last bit.
-fn ball(camera: &CameraView, ends: [f64; 2]) -> (DVec3, f64) {
+/// Middle and radius of a ball around what the camera may see between two distances along the view and no farther than `reach` from the
+/// eye. The radius depends on the projection and the distances alone, not on where the camera looks, to the last bit.
+fn ball(camera: &CameraView, ends: [f64; 2], reach: f64) -> (DVec3, f64) {
     let part = Frustum::of(&camera.clip_from_view).and(&between(DVec3::NEG_Z, DVec3::ZERO, ends));
-    let corners = part.corners();
-    // Squares of the farthest corners at both ends.
+    // The farthest corner at either end, as its distances along and from the axis; beyond the reach where its ray, or the end, leaves that.
     let [near, far] = ends.map(|d| {
-        let at_end = corners.iter().filter(|c| (c.z + d).abs() <= 1e-6 * (1.0 + d.abs()));
-        at_end.map(|c| c.length_squared()).fold(d * d, f64::max)
+        let at_end = part.corners().iter().filter(|c| (c.z + d).abs() <= 1e-6 * (1.0 + d.abs()));
+        let aside = at_end.map(|c| c.truncate().length_squared()).fold(0.0, f64::max).sqrt();
+        DVec2::new(d, aside)
     });
-    let [from, to] = ends;
-    let length = to - from;
-    let middle = if length > 0.0 { ((far - near) / (2.0 * length)).clamp(from, to) } else { to };
-    let center = DVec3::new(0.0, 0.0, -middle);
-    let radius = corners.iter().map(|c| c.distance(center)).fold(0.0, f64::max);
+    // Of a sphere's cap that the view sees what is at its rim is farthest from any place on the axis.
+    let far = within(reach, near, far);
+    let along = far.x - near.x;
+    let middle = if along > 0.0 { (far.length_squared() - near.length_squared()) / (2.0 * along) } else { far.x };
+    let axis = DVec2::new(middle.clamp(near.x, far.x.max(near.x)), 0.0);
+    let center = DVec3::new(0.0, 0.0, -axis.x);
+    let tip = ends[1].min(reach).max(ends[0]) - axis.x;
+    let radius = near.distance(axis).max(far.distance(axis)).max(tip);
     (camera.view_from_world.inverse().transform_point3(center), radius)
+}
+
+/// The end of the way from `near` to `far` that is no farther than `reach` from the origin.
+fn within(reach: f64, near: DVec2, far: DVec2) -> DVec2 {
+    let way = far - near;
+    if far.length() <= reach || near.length() >= reach || way == DVec2::ZERO {
+        return far;
+    }
+    let (along, square) = (near.dot(way), way.length_squared());
+    near + way * (((along * along + square * (reach * reach - near.length_squared())).sqrt() - along) / square)
 }
 
 #[cfg(test)]

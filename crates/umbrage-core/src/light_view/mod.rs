@@ -16,7 +16,7 @@ mod warp;
 use crate::{bounds::Bounds, frustum::Frustum, light::LightShape};
 pub use cascades::{Cascades, Cover, fit_cascades};
 use glam::{DMat3, DMat4, DVec2, DVec3};
-pub use on_screen::texel_on_screen;
+pub use on_screen::{texel_on_screen, view_at};
 pub use paraboloid::Paraboloid;
 pub use warp::{CUBE_SIDES, Warp, fit_warped};
 
@@ -34,6 +34,9 @@ pub struct LightView {
     pub layer: u32,
     /// `None` where the matrix is all there is.
     pub paraboloid: Option<Paraboloid>,
+    /// Of a part of what the camera sees that stands still: texels along the map's borders that are for filters alone. Inside of them it
+    /// counts in place of the next part's map, wherever the parts end. `None` for all other views.
+    pub steady_border: Option<f64>,
 }
 
 /// How views are fitted.
@@ -133,7 +136,7 @@ pub const FARTHEST: f64 = NEAR / 1.01;
 impl LightView {
     /// A view that is all matrix.
     pub fn of(clip_from_world: DMat4, size: u32, layer: u32) -> Self {
-        Self { clip_from_world, size, layer, paraboloid: None }
+        Self { clip_from_world, size, layer, paraboloid: None, steady_border: None }
     }
 
     /// True for views from a point.

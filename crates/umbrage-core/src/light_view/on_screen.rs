@@ -4,11 +4,27 @@ use super::LightView;
 use crate::camera::CameraView;
 use glam::{DMat4, DVec2, DVec3};
 
+/// The view that counts at `point`; `None` where none covers it.
+///
+/// `splits` are distances along the camera's view, ascending, at which the view of one layer gives way to that of the next, unless that has a
+/// [`LightView::steady_border`] and the point is inside of it; without any the first view that covers the point counts.
+pub fn view_at<'a>(views: &'a [LightView], splits: &[f64], camera: &CameraView, point: DVec3) -> Option<&'a LightView> {
+    let distance = -camera.view_from_world.transform_point3(point).z;
+    let layer = splits.iter().filter(|split| distance >= **split).count() as u32;
+    let is_within = |v: &LightView, border: f64| {
+        let most = 1.0 - 2.0 * border / f64::from(v.size);
+        v.project(point).is_some_and(|p| p.x.abs() <= most && p.y.abs() <= most)
+    };
+    let is_used = |v: &LightView| splits.is_empty() || v.layer == layer;
+    let goes_on = |v: &LightView| v.layer + 1 == layer && v.steady_border.is_some_and(|border| is_within(v, border));
+    let finer = views.iter().find(|v| goes_on(v));
+    finer.or_else(|| views.iter().find(|v| is_used(v) && is_within(v, 0.0)))
+}
+
 /// How far, in pixels, one texel of the map that covers `point` reaches on the screen along the surface there with
 /// `normal`: the largest singular value of ∂pixel/∂texel. `None` where no view covers the point.
 ///
-/// `splits` are distances along the camera's view, ascending, at which the view of one layer gives way to that of the next;
-/// without any the first view that covers the point counts.
+/// The view is that of [`view_at`].
 pub fn texel_on_screen(
     views: &[LightView],
     splits: &[f64],
@@ -17,11 +33,7 @@ pub fn texel_on_screen(
     point: DVec3,
     normal: DVec3,
 ) -> Option<f64> {
-    let distance = -camera.view_from_world.transform_point3(point).z;
-    let layer = splits.iter().filter(|split| distance >= **split).count() as u32;
-    let is_used = |v: &LightView| splits.is_empty() || v.layer == layer;
-    let covers = |v: &LightView| v.project(point).is_some_and(|p| p.x.abs() <= 1.0 && p.y.abs() <= 1.0);
-    let view = views.iter().find(|v| is_used(v) && covers(v))?;
+    let view = view_at(views, splits, camera, point)?;
     let (s, t) = normal.try_normalize()?.any_orthonormal_pair();
     let half = |w: u32, h: u32| DVec2::new(f64::from(w), f64::from(h)) * 0.5;
     // Change of the place in a picture when the point moves along an axis of the surface.

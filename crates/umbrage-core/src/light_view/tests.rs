@@ -123,3 +123,20 @@ fn the_distance_along_the_view_tells_which_split_counts() {
     assert!((texel(&[0.5]).unwrap() / fine - 4.0).abs() < 1e-9);
     assert_eq!(texel(&[0.2, 0.5]), None, "there is no third layer");
 }
+
+#[test]
+fn a_steady_view_counts_behind_its_split_but_not_at_its_border() {
+    let light = LightShape::Directional { direction: DVec3::NEG_Y, angle_deg: 0.0 };
+    let (views, _) = fit_of(&light, Focus::Light, Omni::Cube, 0.0);
+    let camera = Camera { eye: DVec3::Y, target: DVec3::ZERO, up: DVec3::Z, ..Camera::default() }.view(64, 64);
+    let layer = |border: Option<f64>, splits: &[f64]| {
+        let fine = LightView { steady_border: border, ..views[0].clone() };
+        let views = [fine.clone(), LightView { layer: 1, ..fine.clone() }, LightView { layer: 2, ..fine }];
+        view_at(&views, splits, &camera, DVec3::ZERO).map(|view| view.layer)
+    };
+    let whole = f64::from(views[0].size);
+    assert_eq!(layer(None, &[0.5]), Some(1));
+    assert_eq!(layer(Some(0.0), &[0.5]), Some(0));
+    assert_eq!(layer(Some(whole), &[0.5]), Some(1), "all of the map is border");
+    assert_eq!(layer(Some(0.0), &[0.2, 0.5]), Some(1), "the last but one at most");
+}

@@ -38,7 +38,7 @@ shader_struct! {
         slope_down: [f32; 3],
         nearest: f32,
         slope_axis: [f32; 3],
-        pad_c: f32,
+        border: f32,
         texel_right: [f32; 3],
         pad_d: f32,
         texel_down: [f32; 3],
@@ -171,7 +171,8 @@ const MOST_LAYERS: usize = umbrage_core::splits::MOST_SPLITS;
 
 impl MapLayer {
     pub(super) fn of(view: &LightView, world_from_ndc: &DMat4, casters: &[Bounds]) -> Self {
-        Self { nearest: nearest(view, casters), ..Self::new(view, world_from_ndc) }
+        let border = view.steady_border.unwrap_or(0.0) as f32;
+        Self { nearest: nearest(view, casters), border, ..Self::new(view, world_from_ndc) }
     }
 
     fn new(view: &LightView, world_from_ndc: &DMat4) -> Self {

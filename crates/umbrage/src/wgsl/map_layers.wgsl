@@ -13,7 +13,8 @@ struct MapLayer {
     // Depth of the nearest caster there can be; from a point, near / distance.
     nearest: f32,
     slope_axis: vec3f,
-    pad_c: f32,
+    // Of a split that stands still: texels along its borders that are for filters alone. Else 0.
+    border: f32,
     // How a small way of the receiver's moves its homogeneous texel. Of a paraboloid, its axes are in `slope_right`, `slope_down` and
     // `slope_axis`, and this lacks what the change of the distance adds, see `texel_change`.
     texel_right: vec3f,

@@ -37,6 +37,9 @@ const CREASE: f32 = 0.5;
 // How steeply a surface may rise above the receiver's plane within a wide filter: a tangent.
 const BEND: f32 = 0.25;
 
+// Share of a steady map's width over which it gives way to the next one.
+const STEADY_FADE: f32 = 0.05;
+
 // Widest filter of a radius in metres.
 const MOST_TEXELS: f32 = 64.0;
 
@@ -130,10 +133,32 @@ fn texel_step(layer: u32, place: vec4f, change: vec4f) -> vec3f {
     return change.xyw;
 }
 
-// The split of a pixel.
+// The split of a pixel. A map that stands still covers a ball around its part, so it goes on behind the part's end for as long as it
+// covers what is there, and gives way to the next one towards its own border.
 fn split_of(pixel: Pixel) -> Split {
     let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
-    return split_at(dot(map.view_distance, ndc) / eye_w(map.eye, ndc));
+    var split = split_at(dot(map.view_distance, ndc) / eye_w(map.eye, ndc));
+    let layer = min(split.layer, 8u);
+    if map.layers[layer].border > 0.0 && split.is_covered {
+        split.next *= 1.0 - steady_share(layer, ndc);
+        let finer = max(layer, 1u) - 1u;
+        let share = steady_share(finer, ndc);
+        if finer < layer && share > 0.0 {
+            return Split(finer, 1.0 - share, true);
+        }
+    }
+    return split;
+}
+
+// Share of a place that a steady split's map has: all within its borders, and where splits are mixed none at them.
+fn steady_share(layer: u32, ndc: vec4f) -> f32 {
+    let p = map.layers[layer].map_from_ndc * ndc;
+    let texel = p.xy / p.w;
+    let inside = min(texel, map.size - texel) - map.layers[layer].border;
+    let room = min(inside.x, inside.y);
+    let is_in_front = p.w * eye_w(map.eye, ndc) > 0.0;
+    let share = select(select(0.0, 1.0, room >= 0.0), saturate(room / (STEADY_FADE * map.size)), BLEND != 0u);
+    return select(0.0, share, is_in_front);
 }
 
 // The side of a post-perspective cube that covers a pixel, the one with most room around it.

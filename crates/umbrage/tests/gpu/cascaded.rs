@@ -101,7 +101,7 @@ fn steady_views_with_a_margin_stay_while_the_camera_moves() {
 }
 
 #[test]
-fn ten_thousand_kilometres_away_splits_look_the_same() {
+fn ten_thousand_kilometres_away_splits_and_warped_maps_look_the_same() {
     let gpu = gpu();
     let here = scene("city", 0.3);
     let mut far = here.clone();
@@ -109,10 +109,13 @@ fn ten_thousand_kilometres_away_splits_look_the_same() {
     far.camera.eye += offset;
     far.camera.target += offset;
     far.instances.iter_mut().for_each(|i| i.world_from_mesh.translation += offset);
-    for set in ["", "stabilize=on", "depth-fit=on", "filter=pcss-jitter", "filter=evsm"] {
-        let of = |scene: &Scene| visibility(&mut renderer(&gpu, scene, 0, "cascaded", set, SIZE), scene);
+    let splits = ["", "stabilize=on", "depth-fit=on", "filter=pcss-jitter", "filter=evsm"].map(|set| ("cascaded", set));
+    let warps = [("psm", ""), ("psm", "cube=on"), ("psm", "shift=off"), ("lispsm", ""), ("plane-optimal", "")];
+    for (id, set) in splits.into_iter().chain(warps) {
+        let of = |scene: &Scene| visibility(&mut renderer(&gpu, scene, 0, id, set, SIZE), scene);
         let apart = mae(&of(&here), &of(&far));
-        assert!(apart < 0.002, "{set}: {apart}");
+        println!("{id} {set}: {apart}");
+        assert!(apart < 0.002, "{id} {set}: {apart}");
     }
 }
 
