@@ -17,8 +17,8 @@ cargo xtask COMMAND
   demo    compare the techniques on a few built-in scenes; ends in a table and out/demo/index.html
   test    run the whole test suite
   bench   measure the standard set of scenes and write benchmarks/<date>-<machine>/
-  tables za|fe
-          measure the tables of two theses again: filtered and soft maps (za), splits (fe); write maps/ or splits/ there";
+  tables za|fe|px
+          measure the tables of three theses again: filtered and soft maps (za), splits (fe), wedges (px); write maps/, splits/ or loops/ there";
 
 fn main() -> ExitCode {
     match run() {
@@ -40,6 +40,7 @@ fn run() -> Result<()> {
         ["bench"] => bench::run(),
         ["tables", "za"] => tables::za::run(),
         ["tables", "fe"] => tables::fe::run(),
+        ["tables", "px"] => tables::px::run(),
         [] | ["help" | "-h" | "--help"] => {
             println!("{USAGE}");
             Ok(())

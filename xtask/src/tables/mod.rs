@@ -1,6 +1,7 @@
 //! Tables of the sources measured again: the same methods on scenes of the same size, with the sources' numbers beside ours.
 
 pub mod fe;
+pub mod px;
 mod thin;
 pub mod za;
 

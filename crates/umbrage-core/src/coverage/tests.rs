@@ -253,10 +253,11 @@ fn share_by_points(picture: &impl Fn(f64, f64) -> f64, from: Flat, to: Flat) -> 
 
 #[test]
 fn how_far_tables_of_pictures_are_off() {
-    let tiles = |x: f64, y: f64| f64::from(((x + 1.0) * 2.0) as u32 % 2 ^ ((y + 1.0) * 2.0) as u32 % 2);
+    let tiles = |x: f64, y: f64| f64::from((((x + 1.0) * 2.0) as u32 + ((y + 1.0) * 2.0) as u32) % 2);
     let dot = |x: f64, y: f64| if (x - 0.5).hypot(y - 0.25) < 0.3 { 1.0 } else { 0.0 };
     let bars = |x: f64, _: f64| f64::from(((x + 1.0) * 3.5) as u32 % 2);
-    let pictures: [(&str, &dyn Fn(f64, f64) -> f64); 3] = [("tiles", &tiles), ("dot", &dot), ("bars", &bars)];
+    type Weight<'a> = &'a dyn Fn(f64, f64) -> f64;
+    let pictures: [(&str, Weight<'_>); 3] = [("tiles", &tiles), ("dot", &dot), ("bars", &bars)];
     for side in [16, 24, 32] {
         for (name, picture) in pictures {
             let middle = |a: Flat, b: Flat| picture(0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]));

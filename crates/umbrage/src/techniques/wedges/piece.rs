@@ -64,7 +64,14 @@ impl Piece {
     pub fn new(gpu: &Gpu, form: Form, options: &Options) -> Self {
         let extrude = if options.listed() { Extrude::Cpu } else { Extrude::Compute };
         let silhouettes = Silhouettes::new(gpu, extrude);
-        Self { form, term: Term::Analytic, selection: Selection::default(), silhouettes, buffers: None, groups: Vec::new() }
+        Self {
+            form,
+            term: Term::Analytic,
+            selection: Selection::default(),
+            silhouettes,
+            buffers: None,
+            groups: Vec::new(),
+        }
     }
 
     /// Silhouettes of the chosen casters, and room for their wedges.
@@ -207,7 +214,13 @@ impl Piece {
 
     pub fn key(&self, view: &View<'_>, draw: Draw, target: &Target) -> Key {
         let depth = target.depth(view).map(|d| (d.texture().format(), is_reversed(view)));
-        Key { draw, depth: depth.filter(|_| !draw.is_apart()), face: self.form.face, term: self.term, split: self.is_split() }
+        Key {
+            draw,
+            depth: depth.filter(|_| !draw.is_apart()),
+            face: self.form.face,
+            term: self.term,
+            split: self.is_split(),
+        }
     }
 
     /// All wedges at once, as the GPU counted them.

@@ -1,11 +1,11 @@
 //! A frame: choose casters, find silhouettes, build wedges, add up what they cover, resolve.
 
 use super::budget::Budget;
+use super::draws::Draw;
 use super::light::Form;
 use super::light::Frame;
 use super::mask::Mask;
 use super::options::Combine;
-use super::draws::Draw;
 use super::options::Options;
 use super::piece::Piece;
 use super::piece::ROUNDING;
@@ -369,8 +369,17 @@ impl Technique for Wedges {
             triangles: if masked { 0 } else { sides * 10 },
             casters_drawn: thrown,
             casters_culled: self.casting.saturating_sub(thrown),
-            bytes: pieces + targets + self.tables.bytes() + self.mask.as_ref().map_or(0, Mask::bytes) + self.body_indices.size(),
+            bytes: pieces
+                + targets
+                + self.tables.bytes()
+                + self.mask.as_ref().map_or(0, Mask::bytes)
+                + self.body_indices.size(),
         }
+    }
+
+    fn counts(&self) -> Vec<(&'static str, u64)> {
+        let found = self.pieces.iter().filter_map(|p| p.silhouettes.found()).map(|[sides, ..]| u64::from(sides));
+        found.reduce(|sum, more| sum + more).map(|wedges| ("wedges", wedges)).into_iter().collect()
     }
 
     fn inspect(&mut self, view: Option<&str>) {
