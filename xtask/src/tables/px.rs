@@ -6,7 +6,7 @@ use anyhow::Result;
 use serde_json::Value;
 use std::fmt::Write;
 
-const FRAMES: u32 = 7;
+const FRAMES: u32 = 5;
 
 /// Wedges of the thesis' scenes.
 const SMALL: [usize; 4] = [4, 64, 538, 756];
