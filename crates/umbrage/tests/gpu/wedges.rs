@@ -199,7 +199,8 @@ fn lights_and_points_within_each_other_stay_between_0_and_1() {
     }
 }
 
-fn difference(a: &Image<f32>, b: &Image<f32>) -> f64 {
+/// Mean of how far pixels are apart.
+pub fn difference(a: &Image<f32>, b: &Image<f32>) -> f64 {
     let sum: f64 = a.data.iter().zip(&b.data).map(|(a, b)| f64::from((a - b).abs())).sum();
     sum / a.data.len() as f64
 }
@@ -223,6 +224,8 @@ fn all_ways_of_drawing_agree() {
             let (picture, draws) = drawn(set);
             let off = difference(&picture, &all);
             println!("{id} {set}: {off:.2e}, {draws} draws");
+            // Or it fell back to the one draw, and agrees with itself.
+            assert!(draws > 3, "{id} {set}: {draws} draws");
             // The same terms, added in another order.
             assert!(off < 1e-5, "{id} {set}: {off:.2e}");
         }
@@ -237,11 +240,12 @@ fn a_split_light_halves_the_error_of_a_single_silhouette() {
         );
         return;
     }
-    for name in ["models", "boxes-line", "boxes-disc"] {
+    // Part of what is wrong with the disc is the truth's own sampling.
+    for (name, most) in [("models", 0.5), ("boxes-line", 0.5), ("boxes-disc", 0.53)] {
         let of = |set| vs_hard(name, 0, set).expect("it is among the stored scenes").0;
         let (whole, four, nine) = (of(""), of("split-light=2"), of("split-light=3"));
         println!("{name}: {whole:.4}, {four:.4}, {nine:.4}");
-        assert!(four < 0.53 * whole && nine < four, "{name}: {whole:.4}, {four:.4}, {nine:.4}");
+        assert!(four < most * whole && nine < four, "{name}: {whole:.4}, {four:.4}, {nine:.4}");
     }
 }
 

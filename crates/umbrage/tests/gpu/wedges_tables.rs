@@ -1,7 +1,7 @@
 //! Shares of a light that `wedges` looks up: against formulas, and those of pictures against ground truth.
 
 use crate::common::{against_truth, gpu, renderer, shared, visibility};
-use crate::wedges::{star, vs_hard};
+use crate::wedges::{difference, star, vs_hard};
 use umbrage::core::glam::DVec3;
 use umbrage::core::{LightShape, Scene, Texture};
 
@@ -24,7 +24,7 @@ fn tables_of_discs_are_near_the_formula() {
         let [formula, table] = ["analytic", "table"]
             .map(|c| visibility(&mut renderer(&gpu, &scene, 0, "wedges", &format!("coverage={c}"), SIZE), &scene));
         let off = || formula.data.iter().zip(&table.data).map(|(a, b)| f64::from((a - b).abs()));
-        let mae = off().sum::<f64>() / formula.data.len() as f64;
+        let mae = difference(&formula, &table);
         // Next to where a corner of the caster is in line with the light's centre the angle changes within a cell of the table.
         let far = off().filter(|d| *d > 0.01).count();
         println!("{text}: mae {mae:.6}, worst {:.4}, {far} pixels", off().fold(0.0, f64::max));

@@ -13,7 +13,6 @@ use umbrage_core::silhouette::light_in_mesh;
 /// Wedges of one caster.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
-    pub caster: u32,
     pub wedges: Range<u32>,
     /// Sides and bodies.
     pub draws: [Draw; 2],
@@ -23,7 +22,7 @@ pub(super) struct Group {
     pub transfer: Option<Draw>,
 }
 
-/// Casters one by one, for their largest share; or those whose silhouette is one convex loop, all others as they are.
+/// A group for each caster, in order: one by one, for their largest share; or those whose silhouette is one convex loop, all others as they are.
 pub(super) fn find_groups(
     casters: &Casters,
     silhouettes: &Silhouettes,
@@ -32,7 +31,7 @@ pub(super) fn find_groups(
     groups: &mut Vec<Group>,
 ) {
     let Some(edges) = casters.made_edges() else { return };
-    for ((caster, throw), wedges) in (0..).zip(throws).zip(silhouettes.sides()) {
+    for ((caster, throw), wedges) in (0_u32..).zip(throws).zip(silhouettes.sides()) {
         let (draws, transfer) = if options.combine == Combine::Max {
             ([Draw::Sides, Draw::Bodies], Some(Draw::Most))
         } else if is_convex_loop(casters, edges, silhouettes, throw, caster, wedges.clone()) {
@@ -41,7 +40,7 @@ pub(super) fn find_groups(
             ([Draw::Sides, Draw::Bodies], None)
         };
         let slot = if transfer.is_some() { groups.len() as u32 + 1 } else { 0 };
-        groups.push(Group { caster, wedges: wedges.clone(), draws, slot, transfer });
+        groups.push(Group { wedges: wedges.clone(), draws, slot, transfer });
     }
 }
 

@@ -90,7 +90,7 @@ impl Piece {
         if options.listed() {
             find_groups(view.casters, &self.silhouettes, throws, options, &mut self.groups);
             for chunk in &mut self.selection.eye_chunks {
-                chunk[2] = self.groups.iter().find(|g| g.caster == chunk[0]).map_or(0, |g| g.slot);
+                chunk[2] = self.groups.get(chunk[0] as usize).map_or(0, |g| g.slot);
             }
         }
         let needs = Needs {
