@@ -34,7 +34,7 @@ fn run() -> Result<()> {
     std::env::set_current_dir(shell::workspace_root()?)?;
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
-        ["setup"] => setup::run(shell::Profile::Dev),
+        ["setup"] => setup::run(shell::Profile::Dev).map(|_| ()),
         ["demo"] => demo::run(),
         ["test", rest @ ..] => test::run(rest),
         ["bench"] => bench::run(),

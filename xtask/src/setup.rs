@@ -5,12 +5,11 @@ use anyhow::{Context, Result, bail};
 use serde_json::Value;
 use std::{fs, path::Path, process::Command};
 
-/// Ends with a usable adapter, or with an error that says what to install.
-pub fn run(profile: Profile) -> Result<()> {
+/// Ends with a usable adapter, or with an error that says what to install. Tells whether all there is is software.
+pub fn run(profile: Profile) -> Result<bool> {
     shell::build(profile)?;
-    if let Some(names) = adapters(profile)? {
-        println!("graphics adapters: {names}");
-        return Ok(());
+    if let Some(found) = adapters(profile)? {
+        return Ok(found.show());
     }
     if !is_debian() {
         bail!("no usable graphics adapter: {}", remedy());
@@ -18,23 +17,37 @@ pub fn run(profile: Profile) -> Result<()> {
     println!("no usable graphics adapter: installing Mesa's software Vulkan driver");
     shell::run(apt(&["update"]))?;
     shell::run(apt(&["install", "--yes", "--no-install-recommends", "mesa-vulkan-drivers", "libvulkan1"]))?;
-    let names = adapters(profile)?.context("Mesa is installed, yet there is still no usable graphics adapter")?;
-    println!("graphics adapters: {names}");
-    Ok(())
+    let found = adapters(profile)?.context("Mesa is installed, yet there is still no usable graphics adapter")?;
+    Ok(found.show())
+}
+
+/// The usable adapters.
+struct Found {
+    names: String,
+    is_software: bool,
+}
+
+impl Found {
+    fn show(&self) -> bool {
+        println!("graphics adapters: {}", self.names);
+        self.is_software
+    }
 }
 
 /// Backends that every technique runs on; OpenGL is a last resort that lacks what some need.
 const USABLE: [&str; 3] = ["Vulkan", "Metal", "Dx12"];
 
-/// Names of the usable adapters that `umbrage` sees; `None` where there is none.
-fn adapters(profile: Profile) -> Result<Option<String>> {
+/// The usable adapters that `umbrage` sees; `None` where there is none.
+fn adapters(profile: Profile) -> Result<Option<Found>> {
     let json: Value = serde_json::from_str(&shell::output(shell::umbrage(profile, &["list", "--json"]))?)
         .context("`umbrage list --json` printed no JSON")?;
     let list = json["adapters"].as_array().context("`umbrage list --json` has no list of adapters")?;
     let usable = |a: &&Value| a["backend"].as_str().is_some_and(|backend| USABLE.contains(&backend));
     let list: Vec<&Value> = list.iter().filter(usable).collect();
     let name = |a: &&Value| format!("{} ({})", a["name"].as_str().unwrap_or("?"), a["kind"].as_str().unwrap_or("?"));
-    Ok((!list.is_empty()).then(|| list.iter().map(name).collect::<Vec<_>>().join(", ")))
+    let names = list.iter().map(name).collect::<Vec<_>>().join(", ");
+    let is_software = list.iter().all(|a| a["kind"] == "software");
+    Ok((!list.is_empty()).then_some(Found { names, is_software }))
 }
 
 /// True on Debian, Ubuntu and what derives from them.

@@ -55,6 +55,11 @@ impl Bounds {
         Self { min: self.min - DVec3::splat(margin), max: self.max + DVec3::splat(margin) }
     }
 
+    /// True where the two share a point.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
+    }
+
     /// Largest absolute coordinate, the scale that rounding errors go by.
     pub fn largest_coordinate(&self) -> f64 {
         if self.is_empty() { 0.0 } else { self.min.abs().max(self.max.abs()).max_element() }
@@ -89,6 +94,15 @@ impl Bounds {
 mod tests {
     use super::*;
     use glam::DMat3;
+
+    #[test]
+    fn boxes_overlap_where_they_share_a_point() {
+        let unit = Bounds::of([DVec3::ZERO, DVec3::ONE]);
+        assert!(unit.overlaps(&Bounds::of([DVec3::ONE, DVec3::splat(2.0)])), "a corner");
+        assert!(unit.overlaps(&Bounds::of([DVec3::splat(0.4), DVec3::splat(0.6)])), "all of it");
+        assert!(!unit.overlaps(&Bounds::of([DVec3::new(0.0, 0.0, 1.1), DVec3::splat(2.0)])));
+        assert!(!unit.overlaps(&Bounds::EMPTY), "of nothing");
+    }
 
     #[test]
     fn empty_is_the_identity_and_has_no_size() {

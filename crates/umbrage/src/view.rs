@@ -1,7 +1,7 @@
 //! One light seen from one camera: all that a technique works on.
 
 use crate::{casters::Casters, receivers::Receivers};
-use umbrage_core::glam::DMat4;
+use umbrage_core::glam::{DMat4, DVec4};
 use umbrage_core::{Bounds, CameraView, Frustum, Light, Texture};
 
 /// Camera, receivers, casters and the one light whose visibility is asked for.
@@ -32,5 +32,16 @@ impl View<'_> {
         let mut corners = Vec::with_capacity(32);
         Frustum::of(&self.camera.clip_from_world()).clip_box(&self.casters.receivers_bounds(), &mut corners);
         Bounds::of(corners)
+    }
+
+    /// A box around the eye and the near rectangle: only what touches it can be cut open by the near plane, or hold the eye.
+    pub(crate) fn around_eye(&self) -> Bounds {
+        let eye_from_clip = self.clip_from_eye().inverse();
+        let near_depth = if self.camera.background_depth() == 0.0 { 1.0 } else { 0.0 };
+        let near = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)].map(|(x, y)| {
+            let p = eye_from_clip * DVec4::new(x, y, near_depth, 1.0);
+            self.camera.eye + p.truncate() / p.w
+        });
+        Bounds::of(near).with(self.camera.eye)
     }
 }

@@ -5,10 +5,10 @@ use obvhs::bvh2::{Bvh2, builder::build_bvh2};
 use obvhs::ray::Ray;
 use obvhs::{Boundable, BvhBuildParams};
 use std::time::Duration;
-use umbrage_core::Mesh;
 use umbrage_core::adjacency::Adjacency;
 use umbrage_core::glam::{DVec2, DVec3, DVec4, Vec3A};
 use umbrage_core::silhouette::{Rule, facing};
+use umbrage_core::{Bounds, Mesh};
 
 /// A hierarchy over a mesh's triangles, numbered as in its [`Adjacency`].
 pub(crate) struct EyeTree {
@@ -39,6 +39,19 @@ impl EyeTree {
         }
         // The builder insists on a clock's reading, which nobody needs.
         Self { tree: build_bvh2(&boxes, BvhBuildParams::fastest_build(), &mut Duration::default()), margin }
+    }
+
+    /// False where surely no triangle touches the box, which is in mesh space.
+    pub fn may_touch(&self, bounds: &Bounds) -> bool {
+        let mut found = false;
+        if !self.tree.nodes.is_empty() {
+            let aabb = Aabb::new(vector(bounds.min), vector(bounds.max));
+            self.tree.aabb_traverse(aabb, |_, _| {
+                found = true;
+                false
+            });
+        }
+        found
     }
 
     /// How many of the triangles that throw the shadow the segment crosses. `None` where it passes an edge or ends at

@@ -1,7 +1,7 @@
 //! Which casters throw shadows that matter, and from where each is counted.
 
 use super::options::{Count, Options, Reach};
-use super::situation::{Situation, common, holds, largest_stretch, overlap};
+use super::situation::{Situation, common, holds, largest_stretch};
 use crate::casters::{self, Casters, Edges, MeshEdges, Placed, Sides, Sight};
 use crate::silhouettes::Throw;
 use crate::{error::Error, gpu::Gpu, view::View};
@@ -151,7 +151,7 @@ impl Selection {
     fn throw(&mut self, s: &Situation<'_>, place: u32, placed: &Placed, mesh: &MeshEdges) -> Throw {
         let bounds = placed.bounds.grown(s.rounding);
         // Where the eye may see a caster's inside, or through its surface.
-        let is_open_to_eye = s.options.unseen || placed.masked || overlap(&bounds, &s.around_eye);
+        let is_open_to_eye = s.options.unseen || placed.masked || bounds.overlaps(&s.around_eye);
         let holds_light = s.light.w != 0.0 && holds(&bounds, s.light.truncate());
         let is_solid = mesh.adjacency.is_closed && !is_open_to_eye && !holds_light;
         let rule = if is_solid { Rule::Away } else { Rule::All };

@@ -35,7 +35,7 @@ impl<'a> Situation<'a> {
         let camera = &view.camera;
         let rounding = 4e-6 * largest_coordinate(view);
         let light = off_ties(view.light.shape.center(), rounding);
-        let around_eye = around_eye(view).grown(rounding);
+        let around_eye = view.around_eye().grown(rounding);
         let seen = view.seen().union(around_eye).grown(4.0 * rounding);
         let distance = |corner: DVec3| corner.distance(light.truncate());
         Self {
@@ -117,22 +117,6 @@ fn off_ties(light: DVec4, rounding: f64) -> DVec4 {
 /// True where all lines of sight run in one direction.
 pub(super) fn is_parallel(camera: &CameraView) -> bool {
     camera.clip_from_view.row(3).truncate() == DVec3::ZERO
-}
-
-/// A box around the eye and the near rectangle.
-fn around_eye(view: &View<'_>) -> Bounds {
-    let eye_from_clip = view.clip_from_eye().inverse();
-    let near_depth = if view.camera.background_depth() == 0.0 { 1.0 } else { 0.0 };
-    let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
-    let near = corners.map(|(x, y)| {
-        let p = eye_from_clip * DVec4::new(x, y, near_depth, 1.0);
-        view.camera.eye + p.truncate() / p.w
-    });
-    Bounds::of(near).with(view.camera.eye)
-}
-
-pub(super) fn overlap(a: &Bounds, b: &Bounds) -> bool {
-    a.min.cmple(b.max).all() && b.min.cmple(a.max).all()
 }
 
 pub(super) fn holds(bounds: &Bounds, p: DVec3) -> bool {

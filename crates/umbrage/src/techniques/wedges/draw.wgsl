@@ -3,6 +3,7 @@
 @group(1) @binding(0) var<uniform> light: WedgeLight;
 @group(1) @binding(1) var<uniform> eye: Eye;
 @group(1) @binding(2) var<storage, read> wedges: array<Wedge>;
+@group(1) @binding(3) var<storage, read> caps: array<Cap>;
 
 const GROUP: u32 = 64u;
 
@@ -21,8 +22,13 @@ fn receiver(pixel: vec2f, depth: f32) -> vec3f {
 // Whether a point is on the shadow's side of the plane through light and edge. Hard shadow and wedge both go by this, so that they agree
 // to the last bit; what rounding can't tell is where the eye is.
 fn is_inside(p: vec3f, plane: vec4f, eye_inside: f32) -> bool {
+    return is_inside_within(p, plane, eye_inside, 0.0);
+}
+
+// The same where the point is off by so much more.
+fn is_inside_within(p: vec3f, plane: vec4f, eye_inside: f32, off: f32) -> bool {
     let height = dot(plane.xyz, p) - plane.w;
-    let least = light.rounding * (abs(p.x) + abs(p.y) + abs(p.z));
+    let least = light.rounding * (abs(p.x) + abs(p.y) + abs(p.z)) + off;
     return select(height >= 0.0, eye_inside != 0.0, abs(height) < least);
 }
 
@@ -69,6 +75,39 @@ fn shadows_of_side(in: Side, from_outside: bool) -> vec2f {
 @fragment
 fn add_side(in: Side, @builtin(front_facing) from_outside: bool) -> @location(0) vec2f {
     return shadows_of_side(in, from_outside);
+}
+
+// Corner by corner. Without a depth, as sides, so that the near plane cuts nothing off.
+@vertex
+fn cap(@builtin(vertex_index) vertex: u32) -> Side {
+    let number = vertex / 3u;
+    var out: Side;
+    out.weights = caps[number].weights;
+    out.position = NOWHERE;
+    if any(out.weights != vec2f(0.0)) {
+        out.plane = caps[number].plane;
+        let at = light.clip_from_eye * vec4f(caps[number].corners[vertex % 3u].xyz, 1.0);
+        out.position = vec4f(at.xy, 0.5 * at.w, at.w);
+    }
+    return out;
+}
+
+// Steps of a depth buffer that a surface and what is seen of it may be apart.
+const DEPTH_STEPS: u32 = 4u;
+
+// Seen through the surface is what lies behind it, and the surface itself is not.
+@fragment
+fn add_cap(in: Side, @builtin(front_facing) from_outside: bool) -> @location(0) vec2f {
+    let pixel = full_pixel(light, in.position.xy);
+    let depth = depth_at(pixel);
+    if depth == eye.background_depth {
+        return vec2f(0.0);
+    }
+    let eye_inside = f32(!from_outside);
+    let p = receiver(pixel, depth);
+    let next = receiver(pixel, bitcast<f32>(bitcast<u32>(depth) + DEPTH_STEPS));
+    let inside = is_inside_within(p, in.plane, eye_inside, abs(dot(in.plane.xyz, next - p)));
+    return in.weights * (f32(inside) - eye_inside);
 }
 
 struct Body {

@@ -8,6 +8,8 @@ use crate::fullscreen::additive;
 pub(super) enum Draw {
     /// Sides of hard shadow volumes.
     Sides,
+    /// Surfaces of casters, where the eye may see through them.
+    Caps,
     /// Bodies of wedges.
     Bodies,
     /// The stencil mask of what is seen inside of bodies, and bodies within it.
@@ -66,6 +68,7 @@ impl Draw {
         let half = |fragment| body("half_body", fragment, Target::Sum);
         match self {
             Self::Sides => side("add_side", Target::Sum),
+            Self::Caps => How::new("cap", "add_cap", Target::Sum),
             Self::Bodies => body("body", "add_wedge", Target::Sum),
             Self::Mask => How { stencil: marks(), shares: false, ..body("body", "mark", Target::Nothing) },
             Self::MaskedBodies => How { stencil: is_marked(), ..body("body", "add_wedge", Target::Sum) },

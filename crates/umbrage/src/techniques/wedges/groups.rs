@@ -3,6 +3,7 @@
 use super::draws::Draw;
 use super::options::Combine;
 use super::options::Options;
+use super::select::Selection;
 use crate::casters::{Casters, Edges};
 use crate::silhouettes::{Silhouettes, Throw};
 use std::collections::HashMap;
@@ -14,9 +15,11 @@ use umbrage_core::silhouette::light_in_mesh;
 #[derive(Clone, Debug)]
 pub(super) struct Group {
     pub wedges: Range<u32>,
+    /// Chunks of its surface that are drawn, see `surface.wgsl`.
+    pub caps: Range<u32>,
     /// Sides and bodies.
     pub draws: [Draw; 2],
-    /// Where the eye's shadows count, see `eye.wgsl`; 0 for what is drawn right into the sum.
+    /// Where the eye's shadows count, see `surface.wgsl`; 0 for what is drawn right into the sum.
     pub slot: u32,
     /// What adds it to the sum, if it is drawn apart.
     pub transfer: Option<Draw>,
@@ -26,21 +29,22 @@ pub(super) struct Group {
 pub(super) fn find_groups(
     casters: &Casters,
     silhouettes: &Silhouettes,
-    throws: &[Throw],
+    selection: &Selection,
     options: &Options,
     groups: &mut Vec<Group>,
 ) {
     let Some(edges) = casters.made_edges() else { return };
-    for ((caster, throw), wedges) in (0_u32..).zip(throws).zip(silhouettes.sides()) {
+    for ((caster, throw), wedges) in (0_u32..).zip(&selection.throws).zip(silhouettes.sides()) {
+        let caps = selection.caps_of(caster);
         let (draws, transfer) = if options.combine == Combine::Max {
             ([Draw::Sides, Draw::Bodies], Some(Draw::Most))
-        } else if is_convex_loop(casters, edges, silhouettes, throw, caster, wedges.clone()) {
+        } else if caps.is_empty() && is_convex_loop(casters, edges, silhouettes, throw, caster, wedges.clone()) {
             ([Draw::LoopSides, Draw::LoopBodies], Some(Draw::Loop))
         } else {
             ([Draw::Sides, Draw::Bodies], None)
         };
         let slot = if transfer.is_some() { groups.len() as u32 + 1 } else { 0 };
-        groups.push(Group { wedges: wedges.clone(), draws, slot, transfer });
+        groups.push(Group { wedges: wedges.clone(), caps, draws, slot, transfer });
     }
 }
 

@@ -19,8 +19,10 @@ shader_struct! {
         radius: f32,
         eye_from_origin: [f32; 3],
         parallel: u32,
+        near_low: [f32; 4],
+        near_high: [f32; 4],
         rounding: f32,
-        eye_chunks: u32,
+        chunks: u32,
         scale: u32,
         pad: u32,
         cell: [f32; 4],
@@ -73,8 +75,8 @@ pub(super) struct Form {
 pub(super) struct Frame {
     /// The share of coordinates that single precision is off by.
     pub rounding: f64,
-    /// See `eye.wgsl`.
-    pub eye_chunks: u32,
+    /// See `surface.wgsl`.
+    pub chunks: u32,
     /// Pixels of the picture to one of the buffer of shares, along each side.
     pub scale: u32,
 }
@@ -254,6 +256,8 @@ impl Form {
         let rows = |m: DMat3| [0, 1, 2].map(|i| m.row(i).extend(0.0).as_vec4().to_array());
         let seen = view.seen();
         let seen = seen.grown(4.0 * rounding * seen.largest_coordinate());
+        let near = view.around_eye();
+        let near = near.grown(4.0 * rounding * near.largest_coordinate());
         let corner = |p: DVec3| p.extend(0.0).as_vec4().to_array();
         let clip = raster(view.receivers.size, frame.scale) * view.clip_from_eye();
         let cell = self.cell.unwrap_or_else(|| Cell::grid(1)[0]);
@@ -269,8 +273,10 @@ impl Form {
             radius: self.radius as f32,
             eye_from_origin: (view.casters.origin() - eye).as_vec3().to_array(),
             parallel: u32::from(self.center.w == 0.0),
+            near_low: corner(near.min - eye),
+            near_high: corner(near.max - eye),
             rounding: rounding as f32,
-            eye_chunks: frame.eye_chunks,
+            chunks: frame.chunks,
             scale: frame.scale,
             pad: 0,
             cell: singles([cell.low[0], cell.low[1], cell.high[0], cell.high[1]]),

@@ -19,10 +19,13 @@ struct WedgeLight {
     // What makes eye-relative coordinates of those of instances.
     eye_from_origin: vec3f,
     parallel: u32,
+    // A box around the eye and the near rectangle.
+    near_low: vec4f,
+    near_high: vec4f,
     // A share of coordinates by which rounding moves things.
     rounding: f32,
-    // Chunks of triangles that may be between eye and light.
-    eye_chunks: u32,
+    // Chunks of triangles to look at one by one, see `surface.wgsl`.
+    chunks: u32,
     // Pixels of the picture that one of the buffer of shares stands for, along each side.
     scale: u32,
     pad: u32,

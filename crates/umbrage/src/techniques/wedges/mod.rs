@@ -37,9 +37,9 @@ const MAKE_SHADER: Shader = Shader {
     layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
 };
 
-const EYE_SHADER: Shader = Shader {
-    name: "shadows of the eye",
-    parts: &[INSTANCES_WGSL, EDGES_WGSL, LIGHT, include_str!("eye.wgsl")],
+const SURFACE_SHADER: Shader = Shader {
+    name: "surfaces of casters",
+    parts: &[INSTANCES_WGSL, EDGES_WGSL, LIGHT, RECORD, include_str!("surface.wgsl")],
     layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
 };
 
@@ -130,6 +130,12 @@ const PARAMS: &[Param] = &[
         unit: "m",
         kind: ParamKind::Float { min: 0.0, max: 1000.0, default: 0.0 },
     },
+    Param {
+        name: "unseen",
+        help: "For hosts that cull faces or hide casters from the camera: counts on the surface of no caster to end what the eye sees.",
+        unit: "",
+        kind: ParamKind::Choice { values: &["off", "on"] },
+    },
 ];
 
 /// See the module.
@@ -147,7 +153,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     shaders: &[
         FIND_SHADER,
         MAKE_SHADER,
-        EYE_SHADER,
+        SURFACE_SHADER,
         DRAW_SHADER,
         APART_SHADER,
         DEPTH_SHADER,

@@ -36,6 +36,8 @@ pub(super) struct Options {
     pub split: usize,
     pub samples: u32,
     pub point_radius: f64,
+    /// The host leaves surfaces out of the receivers that cast, such as those that face away.
+    pub unseen: bool,
 }
 
 impl Options {
@@ -60,6 +62,7 @@ impl Options {
             split: settings.int("split-light") as usize,
             samples: settings.int("samples") as u32,
             point_radius: settings.float("radius"),
+            unseen: settings.choice("unseen") == "on",
         };
         new.check(gpu)?;
         Ok(new)
@@ -109,12 +112,14 @@ impl Options {
     /// All that may be drawn.
     pub fn draws(&self) -> &'static [Draw] {
         match (self.batch, self.stencil) {
-            _ if self.combine == Combine::Max => &[Draw::Sides, Draw::Bodies, Draw::Most],
-            (Batch::PerLoop, _) => &[Draw::Sides, Draw::Bodies, Draw::LoopSides, Draw::LoopBodies, Draw::Loop],
-            (Batch::PerWedge, true) => &[Draw::Sides, Draw::FrontMask, Draw::MaskedFront, Draw::MaskedBack],
-            (Batch::PerWedge, false) => &[Draw::Sides, Draw::Front, Draw::Back],
-            (Batch::All, true) => &[Draw::Sides, Draw::Mask, Draw::MaskedBodies],
-            (Batch::All, false) => &[Draw::Sides, Draw::Bodies],
+            _ if self.combine == Combine::Max => &[Draw::Sides, Draw::Caps, Draw::Bodies, Draw::Most],
+            (Batch::PerLoop, _) => {
+                &[Draw::Sides, Draw::Caps, Draw::Bodies, Draw::LoopSides, Draw::LoopBodies, Draw::Loop]
+            }
+            (Batch::PerWedge, true) => &[Draw::Sides, Draw::Caps, Draw::FrontMask, Draw::MaskedFront, Draw::MaskedBack],
+            (Batch::PerWedge, false) => &[Draw::Sides, Draw::Caps, Draw::Front, Draw::Back],
+            (Batch::All, true) => &[Draw::Sides, Draw::Caps, Draw::Mask, Draw::MaskedBodies],
+            (Batch::All, false) => &[Draw::Sides, Draw::Caps, Draw::Bodies],
         }
     }
 

@@ -10,6 +10,7 @@ use super::options::Options;
 use super::pipelines::Key;
 use super::pipelines::Making;
 use super::pipelines::Pipelines;
+use super::select::CHUNK;
 use super::select::Selection;
 use super::tables::Term;
 use super::targets::Buffers;
@@ -88,14 +89,15 @@ impl Piece {
         self.silhouettes.prepare(gpu, view.casters, projection, self.form.center, throws, style)?;
         self.groups.clear();
         if options.listed() {
-            find_groups(view.casters, &self.silhouettes, throws, options, &mut self.groups);
-            for chunk in &mut self.selection.eye_chunks {
+            find_groups(view.casters, &self.silhouettes, &self.selection, options, &mut self.groups);
+            for chunk in &mut self.selection.chunks {
                 chunk[2] = self.groups.get(chunk[0] as usize).map_or(0, |g| g.slot);
             }
         }
         let needs = Needs {
             wedges: self.silhouettes.room(Part::PassSides),
-            eye_chunks: self.selection.eye_chunks.len() as u32,
+            chunks: self.selection.chunks.len() as u32,
+            caps: self.selection.caps,
             slots: 1 + self.groups.len() as u32,
             anchors: if self.is_split() { self.selection.anchors.len() as u32 } else { 0 },
         };
@@ -103,7 +105,7 @@ impl Piece {
             self.buffers = Some(Buffers::new(gpu, pipelines, &needs)?);
         }
         pipelines.prepare_making(gpu, self.making(view, options));
-        pipelines.prepare_making(gpu, Making::EyeCount { split: self.is_split() });
+        pipelines.prepare_making(gpu, Making::Surface { split: self.is_split() });
         Ok(())
     }
 
@@ -123,11 +125,11 @@ impl Piece {
     /// Finds silhouettes and builds wedges.
     pub fn build(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges, r: &Recording<'_>) {
         let Some(buffers) = &self.buffers else { return };
-        let chunks = self.selection.eye_chunks.len() as u32;
-        let frame = Frame { rounding: ROUNDING, eye_chunks: chunks, scale: r.target.key.scale };
+        let chunks = self.selection.chunks.len() as u32;
+        let frame = Frame { rounding: ROUNDING, chunks, scale: r.target.key.scale };
         passes.upload(&buffers.light, bytemuck::bytes_of(&self.form.uniform(view, &frame)));
         passes.upload(&buffers.eye, bytemuck::bytes_of(&Eye::new(view)));
-        passes.upload(&buffers.eye_chunks, bytemuck::cast_slice(&self.selection.eye_chunks));
+        passes.upload(&buffers.chunks, bytemuck::cast_slice(&self.selection.chunks));
         passes.encoder().clear_buffer(&buffers.eye_count, 0, None);
         passes.upload(&buffers.bodies, &[0; 20]);
         if self.is_split() {
@@ -144,10 +146,10 @@ impl Piece {
             pass.set_bind_group(2, &buffers.make, &[]);
             pass.dispatch_workgroups(groups.min(ROW), groups.div_ceil(ROW), 1);
         }
-        let count = r.pipelines.making(Making::EyeCount { split: self.is_split() });
-        if let Some(count) = count.filter(|_| chunks > 0) {
-            pass.set_pipeline(count);
-            pass.set_bind_group(2, &buffers.count, &[]);
+        let surface = r.pipelines.making(Making::Surface { split: self.is_split() });
+        if let Some(surface) = surface.filter(|_| chunks > 0) {
+            pass.set_pipeline(surface);
+            pass.set_bind_group(2, &buffers.surface, &[]);
             pass.dispatch_workgroups(chunks.min(ROW), chunks.div_ceil(ROW), 1);
         }
     }
@@ -163,6 +165,7 @@ impl Piece {
             match r.options.batch {
                 Batch::PerWedge => {
                     draws += self.range(&mut pass, view, Draw::Sides, 0..self.listed(), r);
+                    draws += self.caps(&mut pass, view, 0..self.selection.caps, r);
                     draws += if is_soft { self.wedge_by_wedge(&mut pass, view, r) } else { 0 };
                 }
                 _ => draws += self.all(&mut pass, view, r),
@@ -178,6 +181,7 @@ impl Piece {
                 let mut pass = self.begin(passes, view, attachment(into, first), r);
                 let [sides, bodies] = group.draws;
                 draws += self.range(&mut pass, view, sides, group.wedges.clone(), r);
+                draws += self.caps(&mut pass, view, group.caps.clone(), r);
                 draws += if is_soft { self.range(&mut pass, view, bodies, group.wedges.clone(), r) } else { 0 };
             }
             if is_apart {
@@ -234,6 +238,7 @@ impl Piece {
             pass.draw_indexed_indirect(arguments, offset);
             draws += 1;
         }
+        draws += self.caps(pass, view, 0..self.selection.caps, r);
         pass.set_index_buffer(r.body_indices.slice(..), wgpu::IndexFormat::Uint16);
         let bodies: &[Draw] = match r.options.stencil {
             _ if self.form.is_point() => &[],
@@ -248,6 +253,15 @@ impl Piece {
             }
         }
         draws
+    }
+
+    /// Surfaces that the eye may see through.
+    fn caps(&self, pass: &mut wgpu::RenderPass<'_>, view: &View<'_>, chunks: Range<u32>, r: &Recording<'_>) -> u32 {
+        let pipeline = r.pipelines.drawing(self.key(view, Draw::Caps, r.target));
+        let Some(pipeline) = pipeline.filter(|_| !chunks.is_empty()) else { return 0 };
+        pass.set_pipeline(pipeline);
+        pass.draw(chunks.start * 3 * CHUNK..chunks.end * 3 * CHUNK, 0..1);
+        1
     }
 
     /// Sides or bodies of some wedges, groups of 64 and what is left.

@@ -29,6 +29,16 @@ struct Wedge {
     anchor: Anchor,
 }
 
+// A triangle of a caster's surface, where the eye may see through it.
+struct Cap {
+    // Corners relative to the eye, counter-clockwise seen from the light.
+    corners: array<vec4f, 3>,
+    // The plane n · p = w, n away from the light, in light space.
+    plane: vec4f,
+    // As those of a wedge; 0 if it throws no shadow.
+    weights: vec2f,
+}
+
 // Where a ray ends, homogeneous: at a plane or infinitely far away.
 fn run(start: vec3f, way: vec3f, end: vec4f) -> vec4f {
     let speed = dot(end.xyz, way);

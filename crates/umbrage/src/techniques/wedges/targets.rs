@@ -4,12 +4,16 @@ use super::light::Anchor;
 use super::light::WedgeLight;
 use super::light::scaled;
 use super::pipelines::Pipelines;
+use super::select::CHUNK;
 use crate::depth_maps::Eye;
 use crate::fullscreen::{bind, target_texture};
 use crate::{error::Error, gpu::Gpu, receivers::Receivers, view::View};
 
 /// Bytes of a record, see `record.wgsl`.
 const RECORD: u64 = 352;
+
+/// Bytes of the surfaces of a chunk, see `record.wgsl`.
+const CAPS: usize = 80 * CHUNK as usize;
 
 /// Wedges that an instance draws, see `draw.wgsl`.
 pub(super) const GROUP: u32 = 64;
@@ -18,8 +22,9 @@ pub(super) const GROUP: u32 = 64;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Needs {
     pub wedges: u32,
-    pub eye_chunks: u32,
-    /// See `eye.wgsl`.
+    /// Of triangles that are looked at, and the first of them that are drawn, see `surface.wgsl`.
+    pub chunks: u32,
+    pub caps: u32,
     pub slots: u32,
     /// Of casters, if the light is split.
     pub anchors: u32,
@@ -32,11 +37,12 @@ pub(super) struct Buffers {
     pub wedges: wgpu::Buffer,
     /// Arguments of the draw of all bodies.
     pub bodies: wgpu::Buffer,
-    pub eye_chunks: wgpu::Buffer,
+    pub chunks: wgpu::Buffer,
+    pub caps: wgpu::Buffer,
     pub eye_count: wgpu::Buffer,
     pub anchors: wgpu::Buffer,
     pub make: wgpu::BindGroup,
-    pub count: wgpu::BindGroup,
+    pub surface: wgpu::BindGroup,
     pub draw: wgpu::BindGroup,
     pub depth: wgpu::BindGroup,
 }
@@ -48,6 +54,10 @@ impl Buffers {
         let size = u64::from(needs.wedges.next_multiple_of(GROUP)) * RECORD;
         if size > limit {
             return Err(Error::Size { what: "the wedges of a light".into(), size, limit });
+        }
+        let caps_size = u64::from(needs.caps.next_power_of_two()) * CAPS as u64;
+        if caps_size > limit {
+            return Err(Error::Size { what: "the masked casters of a light".into(), size: caps_size, limit });
         }
         let buffer = |label, size: u64, usage| {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -65,7 +75,8 @@ impl Buffers {
         let some = |label, number: u32, bytes: usize, usage| {
             buffer(label, u64::from(number.max(1).next_power_of_two()) * bytes as u64, Usage::STORAGE | usage)
         };
-        let eye_chunks = some("chunks before the eye", needs.eye_chunks, 16, Usage::empty());
+        let chunks = some("chunks of triangles", needs.chunks, 16, Usage::empty());
+        let caps = some("surfaces that are seen through", needs.caps, CAPS, Usage::empty());
         let eye_count = some("shadows of the eye", needs.slots, 8, Usage::COPY_SRC);
         let anchors = some("where silhouettes are seen from", needs.anchors, size_of::<Anchor>(), Usage::empty());
         let all = |buffers: &[&wgpu::Buffer], layout| {
@@ -74,14 +85,15 @@ impl Buffers {
         };
         Ok(Self {
             make: all(&[&light, &wedges, &bodies, &anchors], &pipelines.make_layout),
-            count: all(&[&light, &eye_chunks, &eye_count, &anchors], &pipelines.count_layout),
-            draw: all(&[&light, &eye, &wedges], &pipelines.draw_layout),
+            surface: all(&[&light, &chunks, &eye_count, &anchors, &caps], &pipelines.surface_layout),
+            draw: all(&[&light, &eye, &wedges, &caps], &pipelines.draw_layout),
             depth: all(&[&light], &pipelines.depth_layout),
             light,
             eye,
             wedges,
             bodies,
-            eye_chunks,
+            chunks,
+            caps,
             eye_count,
             anchors,
         })
@@ -89,15 +101,15 @@ impl Buffers {
 
     pub fn hold(&self, needs: &Needs) -> bool {
         self.wedges.size() >= u64::from(needs.wedges.next_multiple_of(GROUP)) * RECORD
-            && self.eye_chunks.size() >= u64::from(needs.eye_chunks) * 16
+            && self.chunks.size() >= u64::from(needs.chunks) * 16
+            && self.caps.size() >= u64::from(needs.caps) * CAPS as u64
             && self.eye_count.size() >= u64::from(needs.slots) * 8
             && self.anchors.size() >= u64::from(needs.anchors) * size_of::<Anchor>() as u64
     }
 
     pub fn bytes(&self) -> u64 {
-        let all =
-            [&self.light, &self.eye, &self.wedges, &self.bodies, &self.eye_chunks, &self.eye_count, &self.anchors];
-        all.map(|b| b.size()).iter().sum()
+        let small = [&self.light, &self.eye, &self.bodies, &self.chunks, &self.eye_count, &self.anchors];
+        small.into_iter().chain([&self.wedges, &self.caps]).map(|b| b.size()).sum()
     }
 }
 

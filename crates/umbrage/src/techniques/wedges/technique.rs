@@ -104,7 +104,7 @@ impl Wedges {
             }
             let piece = &mut self.pieces[i];
             piece.term = self.tables.term_of(&piece.form);
-            piece.selection.choose(gpu, view, &piece.form, ROUNDING)?;
+            piece.selection.choose(gpu, view, &piece.form, ROUNDING, self.options.unseen)?;
         }
         Ok(())
     }
@@ -235,7 +235,7 @@ impl Wedges {
 
     /// What resolving reads.
     fn upload(&self, passes: &mut Passes<'_>, view: &View<'_>, form: &Form, target: &Target) {
-        let frame = Frame { rounding: ROUNDING, eye_chunks: 0, scale: target.key.scale };
+        let frame = Frame { rounding: ROUNDING, chunks: 0, scale: target.key.scale };
         let weights: Vec<f32> = self.pieces.iter().map(|p| p.form.weight as f32).collect();
         passes.upload(&self.whole.light, bytemuck::bytes_of(&form.uniform(view, &frame)));
         passes.upload(&self.whole.eye, bytemuck::bytes_of(&Eye::new(view)));
@@ -321,7 +321,7 @@ impl Technique for Wedges {
         self.casting = view.casters.casting().len() as u32;
         self.form = Some(form);
         if self.is_masked() {
-            self.mask_selection.choose(gpu, view, &form, ROUNDING)?;
+            self.mask_selection.choose(gpu, view, &form, ROUNDING, false)?;
             if !self.is_lit() {
                 let mask = self.mask.get_or_insert_with(|| Mask::new(gpu, self.options.samples));
                 mask.prepare(gpu, view, &form, &self.mask_selection, ROUNDING)?;

@@ -1,6 +1,6 @@
 //! Eyes at exact places: in shadows, in casters, on the border of a shadow, and near planes that cut.
 
-use super::{Bench, COUNTS, assert_none, floor, put};
+use super::{Bench, COUNTS, EXACT, assert_none, floor, put};
 use crate::common::gpu;
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Camera, Light, LightShape, Scene, primitive};
@@ -25,7 +25,7 @@ fn from(eye: DVec3, target: DVec3, near: f64) -> Camera {
 fn an_eye_exactly_on_the_border_of_a_shadow_sees_right() {
     let gpu = gpu();
     let mut wrong = Vec::new();
-    let mut bench = Bench::new(&gpu, scene(), (160, 120), &COUNTS);
+    let mut bench = Bench::new(&gpu, scene(), (160, 120), &EXACT);
     let down = bench.scene.lights[0].clone();
     // Sides of the cube's shadow are the planes x = ±0.5 and z = ±0.5, below a lamp above the middle x = 3 − y and the like.
     let lamp = point(0.0, 3.0, 0.0);
@@ -56,7 +56,7 @@ fn an_eye_exactly_on_the_border_of_a_shadow_sees_right() {
 fn an_eye_in_a_shadow_starts_with_it() {
     let gpu = gpu();
     let mut wrong = Vec::new();
-    let mut bench = Bench::new(&gpu, scene(), (160, 120), &COUNTS);
+    let mut bench = Bench::new(&gpu, scene(), (160, 120), &EXACT);
     let light = point(0.2, 6.0, 0.3);
     for eye in [DVec3::new(-0.1, 0.7, 0.05), DVec3::new(2.4, 0.6, -0.2), DVec3::new(-2.9, 0.1, -0.8)] {
         for target in [DVec3::ZERO, DVec3::new(3.0, 0.0, 2.0), DVec3::new(-3.0, 0.0, 1.0)] {
@@ -73,7 +73,7 @@ fn an_eye_in_a_shadow_starts_with_it() {
 fn an_eye_in_a_caster_sees_its_walls_dark() {
     let gpu = gpu();
     let mut wrong = Vec::new();
-    let mut bench = Bench::new(&gpu, scene(), (160, 120), &COUNTS);
+    let mut bench = Bench::new(&gpu, scene(), (160, 120), &EXACT);
     for light in [bench.scene.lights[0].clone(), point(0.4, 5.0, 0.6), point(0.1, 2.3, -0.2)] {
         for eye in [DVec3::new(0.1, 2.1, 0.0), DVec3::new(-0.45, 1.55, -0.45), DVec3::new(-2.6, 1.1, -0.2)] {
             for target in [DVec3::ZERO, DVec3::new(1.0, 2.1, 0.3), DVec3::new(-5.0, 2.5, -0.4)] {
@@ -95,7 +95,7 @@ fn an_eye_in_a_caster_sees_its_walls_dark() {
 fn a_near_plane_may_cut_casters_and_shadows() {
     let gpu = gpu();
     let mut wrong = Vec::new();
-    let mut bench = Bench::new(&gpu, scene(), (160, 120), &COUNTS);
+    let mut bench = Bench::new(&gpu, scene(), (160, 120), &EXACT);
     for light in [bench.scene.lights[0].clone(), point(1.0, 5.0, 1.0), point(-4.0, 3.0, 2.0)] {
         for (eye, target) in [
             // Before the cube and its shadow, before the plate's edge, beside the sphere.
@@ -117,7 +117,7 @@ fn a_near_plane_may_cut_casters_and_shadows() {
 fn casters_behind_the_eye_throw_shadows_before_it() {
     let gpu = gpu();
     let mut wrong = Vec::new();
-    let mut bench = Bench::new(&gpu, scene(), (160, 120), &COUNTS);
+    let mut bench = Bench::new(&gpu, scene(), (160, 120), &EXACT);
     let mut dark = 0;
     let direction = DVec3::new(0.2, -0.6, -1.0).normalize();
     for shape in [

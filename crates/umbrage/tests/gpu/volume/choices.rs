@@ -1,7 +1,7 @@
 //! What hosts choose: alpha masks, casters the camera can't see, and one overlay for all lights.
 
-use super::{Bench, COUNTS, assert_none, floor, put};
-use crate::common::{gpu, renderer};
+use super::{Bench, EXACT, assert_none, floor, put, renderer_of};
+use crate::common::gpu;
 use umbrage::core::glam::{DAffine3, DVec2, DVec3, Vec4};
 use umbrage::core::{Camera, Light, LightShape, Material, Scene, primitive};
 use umbrage::{LightPass, Renderer, find};
@@ -30,8 +30,8 @@ fn masked_cards_cast_whole_also_where_the_eye_looks_through_them() {
     for eye in [DVec3::new(0.2, 7.0, 1.0), DVec3::new(0.0, 3.0, 5.0), DVec3::new(0.1, 1.0, 0.1)] {
         let camera = Camera { eye, target: DVec3::new(0.0, 0.0, -0.4), ..Camera::default() };
         let depth = seen_by.geometry(&camera, size.0, size.1).depth;
-        for count in COUNTS {
-            let mut renderer = renderer(&gpu, &masked(), 0, "volume", count, size);
+        for way in EXACT {
+            let mut renderer = renderer_of(&gpu, &masked(), way, size);
             renderer.frame(&camera).unwrap();
             let seen = renderer.visibility(0).unwrap();
             let floor = (0..size.0 * size.1).map(|i| (i % size.0, i / size.0)).filter(|p| depth[*p] > 0.0);
@@ -42,7 +42,7 @@ fn masked_cards_cast_whole_also_where_the_eye_looks_through_them() {
                 (seen[(x, y)] < 0.5) != truth.blocked(point, LIGHT.extend(1.0))
             };
             let (all, wrong) = (floor.clone().count(), floor.filter(is_wrong).count());
-            assert!(all > 2000 && wrong * 1000 <= all, "{count} from {eye}: {wrong} of {all} pixels wrong");
+            assert!(all > 2000 && wrong * 1000 <= all, "{way} from {eye}: {wrong} of {all} pixels wrong");
         }
     }
 }
@@ -53,7 +53,8 @@ fn casters_unseen_by_the_camera_change_nothing_where_all_are_seen() {
     let mut scene = floor(LightShape::Point { position: LIGHT });
     put(&mut scene, primitive::torus(1.0, 0.4, 24, 12), DAffine3::from_translation(DVec3::new(0.0, 1.5, 0.0)));
     put(&mut scene, primitive::plane(), DAffine3::from_translation(DVec3::new(1.5, 1.0, 1.5)));
-    let mut bench = Bench::new(&gpu, scene, (160, 120), &["unseen=on", "unseen=on,counter=stencil", ""]);
+    let mut bench =
+        Bench::new(&gpu, scene, (160, 120), &["unseen=on", "unseen=on,counter=stencil", "", "wedges:unseen=on"]);
     assert_none(&bench.own_complaints("unseen"));
     assert_eq!((bench.count_of(0, "from the eye"), bench.count_of(2, "from infinity")), (0, 0));
 }

@@ -1,6 +1,6 @@
 //! What casts, what receives, and how much memory that takes.
 
-use super::{Bench, COUNTS, assert_none, floor, put};
+use super::{Bench, COUNTS, EXACT, assert_none, floor, put};
 use crate::common::{gpu, renderer};
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Image, LightShape, Scene, primitive};
@@ -56,7 +56,7 @@ fn a_light_without_shadows_and_a_scene_without_casters_are_all_lit() {
     let mut none = scene();
     none.instances.iter_mut().for_each(|i| i.casts = false);
     for scene in [unlit, none] {
-        let mut bench = Bench::new(&gpu, scene, (80, 60), &COUNTS);
+        let mut bench = Bench::new(&gpu, scene, (80, 60), &EXACT);
         let (camera, light) = (bench.scene.camera.clone(), bench.scene.lights[0].clone());
         for (set, seen) in bench.visibility(&camera, &light) {
             assert!(seen.data.iter().all(|v| *v == 1.0), "{set}");

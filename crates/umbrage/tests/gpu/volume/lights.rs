@@ -1,6 +1,6 @@
 //! Lights at exact places: on corners, edges and planes, and within casters.
 
-use super::{Bench, COUNTS, Target, assert_none, floor, put};
+use super::{Bench, COUNTS, EXACT, Target, assert_none, floor, put};
 use crate::common::gpu;
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Camera, Light, LightShape, Mesh, Scene, primitive};
@@ -63,7 +63,7 @@ fn a_light_on_a_corner_an_edge_or_a_face_throws_the_shadow_from_beside_it() {
         scene.meshes[1] = open_cube();
         scene
     };
-    let mut benches = [scene(), open].map(|scene| Bench::new(&gpu, scene, (120, 90), &COUNTS));
+    let mut benches = [scene(), open].map(|scene| Bench::new(&gpu, scene, (120, 90), &EXACT));
     let places = [-0.5, 0.0, 0.5, 1.5];
     for i in 0..64 {
         let position = DVec3::new(places[i % 4], places[i / 4 % 4] + 1.0, places[i / 16]);
@@ -88,7 +88,7 @@ fn a_light_on_a_corner_an_edge_or_a_face_throws_the_shadow_from_beside_it() {
 fn parallel_light_along_faces_and_edges_leaves_no_streaks() {
     let gpu = gpu();
     let mut wrong = Vec::new();
-    let mut bench = Bench::new(&gpu, scene(), (160, 120), &COUNTS);
+    let mut bench = Bench::new(&gpu, scene(), (160, 120), &EXACT);
     for direction in [DVec3::NEG_Y, DVec3::new(1.0, -1.0, 0.0), DVec3::new(1.0, -1.0, 1.0), DVec3::new(0.0, -1.0, 1.0)]
     {
         for camera in &cameras() {
@@ -110,7 +110,7 @@ fn nothing_outside_a_closed_box_is_lit_from_within() {
         let cube = scene.add_mesh(primitive::cube());
         scene.instances[2].mesh = cube;
         scene.instances[3].mesh = cube;
-        let mut bench = Bench::new(&gpu, scene, (160, 120), &COUNTS);
+        let mut bench = Bench::new(&gpu, scene, (160, 120), &EXACT);
         for position in [DVec3::Y, DVec3::new(0.3, 0.8, -0.41), DVec3::new(0.1, 1.15, 0.2)] {
             for camera in &cameras() {
                 let light = point(position);
@@ -131,7 +131,7 @@ fn nothing_outside_a_closed_box_is_lit_from_within() {
 fn lights_at_great_and_small_distance_are_right() {
     let gpu = gpu();
     let mut wrong = Vec::new();
-    let mut bench = Bench::new(&gpu, scene(), (160, 120), &COUNTS);
+    let mut bench = Bench::new(&gpu, scene(), (160, 120), &EXACT);
     let toward = DVec3::new(0.3, 1.0, 0.2).normalize();
     for distance in [1e3, 1e5, 1e7] {
         for camera in &cameras() {

@@ -1,7 +1,7 @@
 //! Triangles that do not make a surface.
 
 use super::random::Random;
-use super::{Bench, COUNTS, assert_none, floor, put};
+use super::{Bench, COUNTS, EXACT, assert_none, floor, put};
 use crate::common::gpu;
 use umbrage::core::glam::{DAffine3, DVec3, Vec3};
 use umbrage::core::{Light, LightShape, Mesh, primitive};
@@ -123,7 +123,7 @@ fn any_triangles_throw_their_shadow() {
     for (name, mesh) in soups() {
         let mut scene = floor(lights[0].clone());
         put(&mut scene, mesh, DAffine3::from_translation(DVec3::new(0.0, 1.5, 0.0)));
-        let mut bench = Bench::new(&gpu, scene, (160, 120), &COUNTS);
+        let mut bench = Bench::new(&gpu, scene, (160, 120), &EXACT);
         for (number, shape) in lights.iter().enumerate() {
             for eye in [DVec3::new(0.0, 4.0, 7.0), DVec3::new(-2.0, 0.3, -0.6), DVec3::new(0.21, 1.43, 0.3)] {
                 let camera = umbrage::core::Camera { eye, fov_y_deg: 60.0, ..bench.scene.camera.clone() };

@@ -30,6 +30,9 @@ use umbrage_reference::{Options, Tracer};
 /// The ways to count that are right everywhere.
 pub const COUNTS: [&str; 3] = ["count=z-fail", "count=auto", "count=z-pass-eye"];
 
+/// All ways to hard shadows that are exact to the pixel: those, and wedges of a light that has no size.
+pub const EXACT: [&str; 4] = ["count=z-fail", "count=auto", "count=z-pass-eye", "wedges"];
+
 /// A scene that several settings of the technique draw, to be seen from anywhere under any light.
 pub struct Bench {
     pub scene: Scene,
@@ -98,7 +101,7 @@ impl Target {
 impl Bench {
     /// Renderers for the first light of `scene`.
     pub fn new(gpu: &Gpu, scene: Scene, size: (u32, u32), sets: &[&str]) -> Self {
-        let made = sets.iter().map(|set| (set.to_string(), renderer(gpu, &scene, 0, "volume", set, size)));
+        let made = sets.iter().map(|set| (set.to_string(), renderer_of(gpu, &scene, set, size)));
         Self { renderers: made.collect(), tracer: Tracer::new(&scene), scene, size }
     }
 
@@ -176,6 +179,13 @@ impl Bench {
         let (camera, light) = (self.scene.camera.clone(), self.scene.lights[0].clone());
         self.complaints(what, &camera, &light)
     }
+}
+
+/// Settings of volumes, or of wedges as `wedges:name=value`.
+pub fn renderer_of(gpu: &Gpu, scene: &Scene, set: &str, size: (u32, u32)) -> Renderer {
+    let wedges = set.strip_prefix("wedges").map(|set| ("wedges", set.trim_start_matches(':')));
+    let (technique, set) = wedges.unwrap_or(("volume", set));
+    renderer(gpu, scene, 0, technique, set, size)
 }
 
 /// What `tracer` finds, to be compared up to a distance of `far` metres.

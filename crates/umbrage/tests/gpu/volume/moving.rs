@@ -1,6 +1,6 @@
 //! Lights, casters and cameras that move every frame.
 
-use super::{Bench, COUNTS, assert_none, floor, put, target};
+use super::{Bench, COUNTS, EXACT, assert_none, floor, put, target};
 use crate::common::gpu;
 use crate::steady::alive;
 use umbrage::core::glam::{DAffine3, DVec3};
@@ -39,7 +39,7 @@ fn step(scene: &mut Scene, i: u32) -> (Camera, Light) {
 fn every_frame_is_right() {
     let gpu = gpu();
     let mut wrong = Vec::new();
-    let mut bench = Bench::new(&gpu, scene(), SIZE, &COUNTS);
+    let mut bench = Bench::new(&gpu, scene(), SIZE, &EXACT);
     for i in 0..30 {
         let mut scene = bench.scene.clone();
         let (camera, light) = step(&mut scene, i);

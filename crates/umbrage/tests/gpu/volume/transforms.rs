@@ -1,6 +1,6 @@
 //! Meshes placed in strange ways and at strange places.
 
-use super::{Bench, COUNTS, assert_none, floor, put};
+use super::{Bench, COUNTS, EXACT, assert_none, floor, put};
 use crate::common::{gpu, renderer, visibility};
 use umbrage::core::glam::{DAffine3, DMat3, DVec3};
 use umbrage::core::{LightShape, Scene, primitive};
@@ -54,7 +54,7 @@ fn meshes_squeezed_flat_are_right() {
     let mut wrong = Vec::new();
     let flat = DMat3::from_rotation_x(0.3) * DMat3::from_diagonal(DVec3::new(1.0, 0.0, 1.0));
     for light in lights() {
-        wrong.extend(Bench::new(&gpu, placed(light, flat), (160, 120), &COUNTS).own_complaints("squeezed flat"));
+        wrong.extend(Bench::new(&gpu, placed(light, flat), (160, 120), &EXACT).own_complaints("squeezed flat"));
     }
     assert_none(&wrong);
 }
@@ -84,7 +84,7 @@ fn the_size_of_the_world_and_the_way_to_its_origin_do_not_matter() {
         for light in lights() {
             let scene = moved(placed(light, m), size, offset);
             // Comparing ends 60 m away: all pixels of large worlds are compared here.
-            let mut bench = Bench::new(&gpu, scene.clone(), (160, 120), &COUNTS);
+            let mut bench = Bench::new(&gpu, scene.clone(), (160, 120), &EXACT);
             let target = bench.whole_target(&scene.camera, &scene.lights[0]);
             assert!(target.pixels().1 > 500, "{:?}", target.pixels());
             let what = format!("{size} times as large, {offset} away");
@@ -106,7 +106,7 @@ fn vertices_far_from_the_origin_of_their_mesh_are_right() {
             scene.meshes[i.mesh] = mesh;
             i.world_from_mesh *= DAffine3::from_translation(-offset);
         }
-        wrong.extend(Bench::new(&gpu, scene, (160, 120), &COUNTS).own_complaints("far from the mesh's origin"));
+        wrong.extend(Bench::new(&gpu, scene, (160, 120), &EXACT).own_complaints("far from the mesh's origin"));
     }
     assert_none(&wrong);
 }

@@ -1,7 +1,7 @@
 //! Random views of all procedural scenes.
 
 use super::random::Random;
-use super::{Bench, COUNTS, Target, assert_none};
+use super::{Bench, COUNTS, EXACT, Target, assert_none};
 use crate::common::gpu;
 use umbrage::core::scenes::SCENES;
 use umbrage::core::{Camera, Light, Scene};
@@ -36,7 +36,7 @@ fn random_views_are_true() {
     let (mut wrong, mut views, mut in_shadow, mut mixed) = (Vec::new(), 0, 0, 0);
     for (number, entry) in (0..).zip(SCENES) {
         let mut random = Random(number * 7919 + 1);
-        let mut bench = Bench::new(&gpu, small_scene(entry.build), (160, 120), &COUNTS);
+        let mut bench = Bench::new(&gpu, small_scene(entry.build), (160, 120), &EXACT);
         for kind in 0..VIEWS {
             let (camera, light, target) = view(&mut random, &bench, kind);
             let (scored, dark) = target.pixels();
