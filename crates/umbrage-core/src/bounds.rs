@@ -55,6 +55,11 @@ impl Bounds {
         Self { min: self.min - DVec3::splat(margin), max: self.max + DVec3::splat(margin) }
     }
 
+    /// True where the point is in the box or on its border.
+    pub fn contains(&self, p: DVec3) -> bool {
+        p.cmpge(self.min).all() && p.cmple(self.max).all()
+    }
+
     /// True where the two share a point.
     pub fn overlaps(&self, other: &Self) -> bool {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
@@ -102,6 +107,7 @@ mod tests {
         assert!(unit.overlaps(&Bounds::of([DVec3::splat(0.4), DVec3::splat(0.6)])), "all of it");
         assert!(!unit.overlaps(&Bounds::of([DVec3::new(0.0, 0.0, 1.1), DVec3::splat(2.0)])));
         assert!(!unit.overlaps(&Bounds::EMPTY), "of nothing");
+        assert!(unit.contains(DVec3::X) && !unit.contains(DVec3::new(0.5, 0.5, 1.1)));
     }
 
     #[test]

@@ -22,7 +22,7 @@ mod sides;
 mod vertices;
 pub(crate) use draw_list::{DrawList, InstanceNumbers, Light, Surface};
 pub(crate) use edges::{EDGES_WGSL, Edge, Edges, MeshEdges};
-pub(crate) use eye_tree::Sight;
+pub(crate) use eye_tree::{before_eye, largest_stretch};
 pub(crate) use material::{MATERIAL_LAYOUT, MATERIALS_WGSL, texture_layout};
 pub(crate) use moves::Moves;
 pub(crate) use places::Places;

@@ -1,7 +1,7 @@
 //! One light seen from one camera: all that a technique works on.
 
 use crate::{casters::Casters, receivers::Receivers};
-use umbrage_core::glam::{DMat4, DVec4};
+use umbrage_core::glam::{DMat4, DVec3, DVec4};
 use umbrage_core::{Bounds, CameraView, Frustum, Light, Texture};
 
 /// Camera, receivers, casters and the one light whose visibility is asked for.
@@ -34,6 +34,16 @@ impl View<'_> {
         Bounds::of(corners)
     }
 
+    /// How far single precision moves things in shaders, metres.
+    pub(crate) fn rounding(&self) -> f64 {
+        let origin = self.casters.origin();
+        let light = self.light.shape.center();
+        let scene = self.casters.all_bounds();
+        let scene = Bounds { min: scene.min - origin, max: scene.max - origin }.largest_coordinate();
+        let points = [self.camera.eye - origin, (light.truncate() - origin) * light.w];
+        4e-6 * points.iter().map(|p| p.abs().max_element()).fold(scene, f64::max)
+    }
+
     /// A box around the eye and the near rectangle: only what touches it can be cut open by the near plane, or hold the eye.
     pub(crate) fn around_eye(&self) -> Bounds {
         let eye_from_clip = self.clip_from_eye().inverse();
@@ -44,4 +54,10 @@ impl View<'_> {
         });
         Bounds::of(near).with(self.camera.eye)
     }
+}
+
+/// A light at exactly the place of a vertex has no direction to cast it in. Moved by less than anybody sees, and
+/// along no axis, it has.
+pub(crate) fn off_ties(light: DVec4, rounding: f64) -> DVec4 {
+    light + DVec3::new(0.1, 0.073, 0.087).extend(0.0) * (rounding * light.w)
 }

@@ -1,13 +1,15 @@
 //! How many triangles lie between the eye and the light: where a count that starts at the eye has to begin.
 
+use super::{MeshEdges, Placed};
+use crate::view::View;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::{Bvh2, builder::build_bvh2};
 use obvhs::ray::Ray;
 use obvhs::{Boundable, BvhBuildParams};
 use std::time::Duration;
 use umbrage_core::adjacency::Adjacency;
-use umbrage_core::glam::{DVec2, DVec3, DVec4, Vec3A};
-use umbrage_core::silhouette::{Rule, facing};
+use umbrage_core::glam::{DMat3, DVec2, DVec3, DVec4, Vec3A};
+use umbrage_core::silhouette::facing;
 use umbrage_core::{Bounds, Mesh};
 
 /// A hierarchy over a mesh's triangles, numbered as in its [`Adjacency`].
@@ -18,12 +20,33 @@ pub(crate) struct EyeTree {
 }
 
 /// A segment from the eye to the light in mesh space; w = 0 is the direction to a light infinitely far away.
-pub(crate) struct Sight {
-    pub eye: DVec3,
-    pub light: DVec4,
+struct Sight {
+    eye: DVec3,
+    light: DVec4,
     /// What passes the segment, or an end of it, by no more than this can't be told to be on one side, mesh units.
-    pub tolerance: f64,
-    pub rule: Rule,
+    tolerance: f64,
+}
+
+/// How many of a caster's triangles lie between the eye and a light's centre, as [`EyeTree::count`]; nor can it be told of meshes that the
+/// GPU alone knows.
+pub(crate) fn before_eye(view: &View<'_>, placed: &Placed, mesh: &MeshEdges, light: DVec4) -> Option<[u32; 2]> {
+    let to_mesh = &placed.sides.as_ref().filter(|_| !placed.posed)?.mesh_from_world;
+    let center = light.truncate();
+    let sight = Sight {
+        eye: to_mesh.transform_point3(view.camera.eye),
+        light: match light.w == 0.0 {
+            true => to_mesh.transform_vector3(center).extend(0.0),
+            false => to_mesh.transform_point3(center).extend(1.0),
+        },
+        tolerance: view.rounding() * largest_stretch(&to_mesh.matrix3),
+    };
+    let part = &view.casters.meshes()[placed.mesh as usize].mesh;
+    mesh.eye_tree(part).count(part, &mesh.adjacency, &sight)
+}
+
+/// The most that a matrix lengthens a vector, from above.
+pub(crate) fn largest_stretch(m: &DMat3) -> f64 {
+    (m.x_axis.length_squared() + m.y_axis.length_squared() + m.z_axis.length_squared()).sqrt()
 }
 
 impl EyeTree {
@@ -54,9 +77,9 @@ impl EyeTree {
         found
     }
 
-    /// How many of the triangles that throw the shadow the segment crosses. `None` where it passes an edge or ends at
-    /// a triangle so closely that rounding decides.
-    pub fn count(&self, mesh: &Mesh, adjacency: &Adjacency, sight: &Sight) -> Option<i32> {
+    /// How many triangles the segment crosses, of those that face the light and of those that face away. `None` where it passes an
+    /// edge or ends at a triangle so closely that rounding decides.
+    fn count(&self, mesh: &Mesh, adjacency: &Adjacency, sight: &Sight) -> Option<[u32; 2]> {
         let direction = sight.light.truncate() - sight.eye * sight.light.w;
         let length = direction.length();
         let is_safe = length > 0.0 && length.is_finite() && sight.tolerance < 0.5 * self.margin;
@@ -64,19 +87,19 @@ impl EyeTree {
             return None;
         }
         if adjacency.triangles.is_empty() {
-            return Some(0);
+            return Some([0; 2]);
         }
         let end = if sight.light.w == 0.0 { f64::INFINITY } else { length };
         let line = Line::new(sight.eye, direction / length);
         let light = (sight.light.truncate() - adjacency.center * sight.light.w).extend(sight.light.w).as_vec4();
         let ray = Ray::new(vector(sight.eye), vector(line.direction), 0.0, end as f32);
-        let (mut count, mut is_close) = (0, false);
+        let (mut count, mut is_close) = ([0; 2], false);
         self.tree.ray_traverse_miss(ray, |_, leaf| {
             let t = self.tree.primitive_indices[leaf] as usize;
-            let throws = matches!(sight.rule, Rule::All) || facing(adjacency.planes[t], light) < 0;
+            let is_away = facing(adjacency.planes[t], light) < 0;
             let corners = mesh.corners(adjacency.triangles[t]).map(|p| p.as_dvec3());
             match line.crosses(&corners, end, sight.tolerance) {
-                Some(crosses) => count += i32::from(crosses && throws),
+                Some(crosses) => count[usize::from(is_away)] += u32::from(crosses),
                 None => is_close = true,
             }
             // Nothing ends the search but a case that can't be decided.

@@ -67,6 +67,7 @@ const Z_FAIL: u32 = 4;
 const LIGHT_CAP: u32 = 8;
 const DARK_CAP: u32 = 16;
 const BODY: u32 = 32;
+const Z_FAIL_TERMS: u32 = 64;
 
 /// Edges, or triangles, of one caster that go together.
 const CHUNK: u32 = 64;
@@ -95,7 +96,9 @@ pub(crate) struct Throw {
     pub rule: Rule,
     /// A body with holes: what it covers with its near side and with its far side is nearly the same and counts once.
     pub is_body: bool,
-    /// Counted from infinity instead of from the eye; needs caps.
+    /// Wedges only: counted from infinity instead of from the eye.
+    pub from_infinity: bool,
+    /// Volumes only: the same, with sides in a part of their own; needs caps.
     pub z_fail: bool,
     pub light_cap: bool,
     pub dark_cap: bool,
@@ -362,6 +365,7 @@ fn caster(casters: &Casters, edges: &Edges, throw: &Throw) -> Option<Caster> {
         (throw.light_cap, LIGHT_CAP),
         (throw.dark_cap, DARK_CAP),
         (throw.is_body, BODY),
+        (throw.from_infinity, Z_FAIL_TERMS),
     ];
     let end = throw.end.truncate();
     Some(Caster {

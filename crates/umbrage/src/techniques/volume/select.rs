@@ -1,8 +1,8 @@
 //! Which casters throw shadows that matter, and from where each is counted.
 
 use super::options::{Count, Options, Reach};
-use super::situation::{Situation, common, holds, largest_stretch};
-use crate::casters::{self, Casters, Edges, MeshEdges, Placed, Sides, Sight};
+use super::situation::{Situation, common};
+use crate::casters::{self, Casters, Edges, MeshEdges, Placed, before_eye};
 use crate::silhouettes::Throw;
 use crate::{error::Error, gpu::Gpu, view::View};
 use umbrage_core::Bounds;
@@ -152,7 +152,7 @@ impl Selection {
         let bounds = placed.bounds.grown(s.rounding);
         // Where the eye may see a caster's inside, or through its surface.
         let is_open_to_eye = s.options.unseen || placed.masked || bounds.overlaps(&s.around_eye);
-        let holds_light = s.light.w != 0.0 && holds(&bounds, s.light.truncate());
+        let holds_light = s.light.w != 0.0 && bounds.contains(s.light.truncate());
         let is_solid = mesh.adjacency.is_closed && !is_open_to_eye && !holds_light;
         let rule = if is_solid { Rule::Away } else { Rule::All };
         let z_fail = match s.options.count {
@@ -171,7 +171,18 @@ impl Selection {
         let (light_cap, dark_cap) = if z_fail { self.caps(s, placed, &bounds, end) } else { (false, false) };
         let farthest = s.farthest.filter(|_| ends && !z_fail && end == DVec4::ZERO);
         let reach = s.range.or(farthest).map_or(0.0, |range| s.finite_reach(range, placed, mesh));
-        Throw { place, light: s.light, rule, is_body: false, z_fail, light_cap, dark_cap, end, reach: reach as f32 }
+        Throw {
+            place,
+            light: s.light,
+            rule,
+            is_body: false,
+            from_infinity: false,
+            z_fail,
+            light_cap,
+            dark_cap,
+            end,
+            reach: reach as f32,
+        }
     }
 
     /// Adds the caster's shadows that the eye is in; false where that can't be told for sure.
@@ -180,22 +191,10 @@ impl Selection {
             return false;
         }
         self.eye_counted += 1;
-        let Some(Sides { mesh_from_world: to_mesh, .. }) = &placed.sides else { return false };
-        let light = s.light.truncate();
-        let sight = Sight {
-            eye: to_mesh.transform_point3(s.view.camera.eye),
-            light: if s.light.w == 0.0 {
-                to_mesh.transform_vector3(light).extend(0.0)
-            } else {
-                to_mesh.transform_point3(light).extend(1.0)
-            },
-            tolerance: s.rounding * largest_stretch(&to_mesh.matrix3),
-            rule,
-        };
-        let part = &s.view.casters.meshes()[placed.mesh as usize].mesh;
-        let counted = if s.is_clipped() { None } else { mesh.eye_tree(part).count(part, &mesh.adjacency, &sight) };
+        let counted = if s.is_clipped() { None } else { before_eye(s.view, placed, mesh, s.light) };
         self.eye_undecided += u32::from(counted.is_none());
-        self.eye_count += counted.unwrap_or(0);
+        let [facing, away] = counted.unwrap_or_default();
+        self.eye_count += away as i32 + if rule == Rule::All { facing as i32 } else { 0 };
         counted.is_some()
     }
 

@@ -1,9 +1,9 @@
 //! What choosing casters goes by: camera, light and what is seen, the same for all of them.
 
 use super::options::Options;
-use crate::casters::{MeshEdges, Placed};
-use crate::view::View;
-use umbrage_core::glam::{DMat3, DVec3, DVec4};
+use crate::casters::{MeshEdges, Placed, largest_stretch};
+use crate::view::{View, off_ties};
+use umbrage_core::glam::{DVec3, DVec4};
 use umbrage_core::shadow_hull::{self, Convex};
 use umbrage_core::{Bounds, CameraView, Frustum};
 
@@ -33,7 +33,7 @@ impl<'a> Situation<'a> {
     /// Without `clamps`, volumes are clipped at the near plane.
     pub fn new(view: &'a View<'a>, options: &'a Options, clamps: bool) -> Self {
         let camera = &view.camera;
-        let rounding = 4e-6 * largest_coordinate(view);
+        let rounding = view.rounding();
         let light = off_ties(view.light.shape.center(), rounding);
         let around_eye = view.around_eye().grown(rounding);
         let seen = view.seen().union(around_eye).grown(4.0 * rounding);
@@ -98,36 +98,11 @@ impl<'a> Situation<'a> {
     }
 }
 
-/// Largest coordinate that shaders compute with, metres: what rounding goes by.
-fn largest_coordinate(view: &View<'_>) -> f64 {
-    let origin = view.casters.origin();
-    let light = view.light.shape.center();
-    let scene = view.casters.all_bounds();
-    let scene = Bounds { min: scene.min - origin, max: scene.max - origin }.largest_coordinate();
-    let points = [view.camera.eye - origin, (light.truncate() - origin) * light.w];
-    points.iter().map(|p| p.abs().max_element()).fold(scene, f64::max)
-}
-
-/// A light at exactly the place of a vertex has no direction to cast it in. Moved by less than anybody sees, and
-/// along no axis, it has.
-fn off_ties(light: DVec4, rounding: f64) -> DVec4 {
-    light + DVec3::new(0.1, 0.073, 0.087).extend(0.0) * (rounding * light.w)
-}
-
 /// True where all lines of sight run in one direction.
 pub(super) fn is_parallel(camera: &CameraView) -> bool {
     camera.clip_from_view.row(3).truncate() == DVec3::ZERO
 }
 
-pub(super) fn holds(bounds: &Bounds, p: DVec3) -> bool {
-    p.cmpge(bounds.min).all() && p.cmple(bounds.max).all()
-}
-
 pub(super) fn common(a: &Bounds, b: &Bounds) -> Bounds {
     Bounds { min: a.min.max(b.min), max: a.max.min(b.max) }
-}
-
-/// The most that a matrix lengthens a vector, from above.
-pub(super) fn largest_stretch(m: &DMat3) -> f64 {
-    (m.x_axis.length_squared() + m.y_axis.length_squared() + m.z_axis.length_squared()).sqrt()
 }

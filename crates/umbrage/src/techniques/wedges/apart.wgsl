@@ -1,7 +1,7 @@
 // Adds what one loop, or one caster, covers to what all do.
 
 @group(0) @binding(0) var sums: texture_2d<f32>;
-// See `surface.wgsl`.
+// Of each slot two, see `Wedge::weights`.
 @group(0) @binding(1) var<storage, read> eye_count: array<vec2u>;
 
 struct Apart {

@@ -14,12 +14,7 @@ fn depth_at(pixel: vec2f) -> f32 {
     return textureLoad(receiver_depth, vec2i(pixel), 0);
 }
 
-// In light space.
-fn receiver(pixel: vec2f, depth: f32) -> vec3f {
-    return to_light(light, position_eye(eye, pixel, depth));
-}
-
-// Whether a point is on the shadow's side of the plane through light and edge. Hard shadow and wedge both go by this, so that they agree
+// Whether a point, relative to the eye, is on the shadow's side of the plane through light and edge. Hard shadow and wedge both go by this, so that they agree
 // to the last bit; what rounding can't tell is where the eye is.
 fn is_inside(p: vec3f, plane: vec4f, eye_inside: f32) -> bool {
     return is_inside_within(p, plane, eye_inside, 0.0);
@@ -36,6 +31,7 @@ struct Side {
     @builtin(position) position: vec4f,
     @location(0) @interpolate(flat) plane: vec4f,
     @location(1) @interpolate(flat) weights: vec2f,
+    @location(2) @interpolate(flat) from_infinity: f32,
 }
 
 // Corner 0…3 of a quad: end, start, start's shadow, end's shadow, counter-clockwise seen from outside of the shadow. It has no depth: whether it is in front of what is seen the
@@ -51,6 +47,7 @@ fn side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32)
         return out;
     }
     out.plane = wedges[number].plane;
+    out.from_infinity = wedges[number].from_infinity;
     let is_start = corner == 1u || corner == 2u;
     let p = select(wedges[number].eye_end, wedges[number].eye_start, is_start);
     let from_here = select(wedges[number].end, wedges[number].start, is_start);
@@ -68,8 +65,9 @@ fn shadows_of_side(in: Side, from_outside: bool) -> vec2f {
         return vec2f(0.0);
     }
     let eye_inside = f32(!from_outside);
-    let inside = is_inside(receiver(pixel, depth), in.plane, eye_inside);
-    return in.weights * (f32(inside) - eye_inside);
+    let inside = is_inside(position_eye(eye, pixel, depth), in.plane, eye_inside);
+    // The other end of the line of sight is on the other side.
+    return in.weights * (f32(inside) - select(eye_inside, 1.0 - eye_inside, in.from_infinity != 0.0));
 }
 
 @fragment
@@ -77,37 +75,57 @@ fn add_side(in: Side, @builtin(front_facing) from_outside: bool) -> @location(0)
     return shadows_of_side(in, from_outside);
 }
 
-// Corner by corner. Without a depth, as sides, so that the near plane cuts nothing off.
+struct CapCorner {
+    @builtin(position) position: vec4f,
+    @location(0) @interpolate(flat) plane: vec4f,
+    @location(1) @interpolate(flat) weights: vec2f,
+    // Where the shadow starts, and not where it ends.
+    @location(2) @interpolate(flat) is_lit: f32,
+    @location(3) @interpolate(flat) off: f32,
+}
+
+// Corner by corner; caps in the light, then in the dark. Without a depth, as sides, so that the near plane cuts nothing off.
 @vertex
-fn cap(@builtin(vertex_index) vertex: u32) -> Side {
+fn cap(@builtin(vertex_index) vertex: u32, @builtin(instance_index) end: u32) -> CapCorner {
     let number = vertex / 3u;
-    var out: Side;
+    var out: CapCorner;
     out.weights = caps[number].weights;
     out.position = NOWHERE;
-    if any(out.weights != vec2f(0.0)) {
-        out.plane = caps[number].plane;
-        let at = light.clip_from_eye * vec4f(caps[number].corners[vertex % 3u].xyz, 1.0);
-        out.position = vec4f(at.xy, 0.5 * at.w, at.w);
+    if all(out.weights == vec2f(0.0)) {
+        return out;
     }
+    out.plane = caps[number].plane;
+    out.is_lit = f32(end == 0u);
+    out.off = caps[number].off;
+    var at = caps[number].lit[vertex % 3u];
+    if end == 1u {
+        at = caps[number].dark[vertex % 3u];
+    }
+    at = light.clip_from_eye * at;
+    out.position = vec4f(at.xy, 0.5 * at.w, at.w);
     return out;
 }
 
 // Steps of a depth buffer that a surface and what is seen of it may be apart.
 const DEPTH_STEPS: u32 = 4u;
 
-// Seen through the surface is what lies behind it, and the surface itself is not.
+// Lines of sight leave the shadow through its dark end, going the light's way, and enter where it is no farther than the surface. The surface itself, where it is what is seen, is in front of
+// its shadow on one side and behind it on the other.
 @fragment
-fn add_cap(in: Side, @builtin(front_facing) from_outside: bool) -> @location(0) vec2f {
+fn add_cap(in: CapCorner, @builtin(front_facing) from_outside: bool) -> @location(0) vec2f {
     let pixel = full_pixel(light, in.position.xy);
     let depth = depth_at(pixel);
     if depth == eye.background_depth {
         return vec2f(0.0);
     }
+    if in.is_lit == 0.0 {
+        return select(-in.weights, in.weights, from_outside);
+    }
     let eye_inside = f32(!from_outside);
-    let p = receiver(pixel, depth);
-    let next = receiver(pixel, bitcast<f32>(bitcast<u32>(depth) + DEPTH_STEPS));
-    let inside = is_inside_within(p, in.plane, eye_inside, abs(dot(in.plane.xyz, next - p)));
-    return in.weights * (f32(inside) - eye_inside);
+    let p = position_eye(eye, pixel, depth);
+    let next = position_eye(eye, pixel, bitcast<f32>(bitcast<u32>(depth) + DEPTH_STEPS));
+    let inside = is_inside_within(p, in.plane, eye_inside, in.off + abs(dot(in.plane.xyz, next - p)));
+    return in.weights * (f32(inside) - (1.0 - eye_inside));
 }
 
 struct Body {
@@ -170,6 +188,7 @@ fn is_in_body(in: Body, p: vec3f) -> bool {
 }
 
 struct Met {
+    // In light space.
     p: vec3f,
     inside: bool,
     hit: bool,
@@ -179,9 +198,10 @@ struct Met {
 fn met(in: Body) -> Met {
     let pixel = full_pixel(light, in.position.xy);
     let depth = depth_at(pixel);
-    let p = receiver(pixel, depth);
+    let seen = position_eye(eye, pixel, depth);
+    let p = to_light(light, seen);
     let hit = depth != eye.background_depth && is_in_body(in, p);
-    return Met(p, is_inside(p, in.plane, in.eye_inside), hit);
+    return Met(p, is_inside(seen, in.plane, in.eye_inside), hit);
 }
 
 fn share(in: Body, at: Met) -> f32 {

@@ -15,11 +15,11 @@ use umbrage_core::silhouette::light_in_mesh;
 #[derive(Clone, Debug)]
 pub(super) struct Group {
     pub wedges: Range<u32>,
-    /// Chunks of its surface that are drawn, see `surface.wgsl`.
+    /// Chunks of its surface that are drawn, see `caps.wgsl`.
     pub caps: Range<u32>,
     /// Sides and bodies.
     pub draws: [Draw; 2],
-    /// Where the eye's shadows count, see `surface.wgsl`; 0 for what is drawn right into the sum.
+    /// Where the eye's shadows count, see [`Piece`](super::piece::Piece); 0 for what is drawn right into the sum.
     pub slot: u32,
     /// What adds it to the sum, if it is drawn apart.
     pub transfer: Option<Draw>,

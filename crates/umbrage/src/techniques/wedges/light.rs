@@ -1,7 +1,7 @@
 //! The light as wedges and coverage see it.
 
 use crate::shader::shader_struct;
-use crate::view::View;
+use crate::view::{View, off_ties};
 use umbrage_core::LightShape;
 use umbrage_core::coverage::Cell;
 use umbrage_core::glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
@@ -19,12 +19,10 @@ shader_struct! {
         radius: f32,
         eye_from_origin: [f32; 3],
         parallel: u32,
-        near_low: [f32; 4],
-        near_high: [f32; 4],
         rounding: f32,
-        chunks: u32,
+        cap_chunks: u32,
         scale: u32,
-        pad: u32,
+        handed: f32,
         cell: [f32; 4],
         cell_sides: [f32; 4],
         cell_arc: [f32; 4],
@@ -75,8 +73,8 @@ pub(super) struct Form {
 pub(super) struct Frame {
     /// The share of coordinates that single precision is off by.
     pub rounding: f64,
-    /// See `surface.wgsl`.
-    pub chunks: u32,
+    /// Chunks of triangles whose caps are made.
+    pub cap_chunks: u32,
     /// Pixels of the picture to one of the buffer of shares, along each side.
     pub scale: u32,
 }
@@ -232,6 +230,11 @@ impl Form {
         if self.center.w == 0.0 { way.extend(0.0) } else { self.center + way.extend(0.0) }
     }
 
+    /// The same for a point that may be at a vertex, see [`off_ties`]. Relative to the eye, ways are rounded twice.
+    pub fn off_ties(self, rounding: f64) -> Self {
+        Self { center: off_ties(self.center, 2.0 * rounding), ..self }
+    }
+
     /// True where it has no extent: shadows are hard.
     pub fn is_point(&self) -> bool {
         self.half.iter().map(|h| h.length()).fold(0.0, f64::max) <= 1e-9
@@ -256,8 +259,6 @@ impl Form {
         let rows = |m: DMat3| [0, 1, 2].map(|i| m.row(i).extend(0.0).as_vec4().to_array());
         let seen = view.seen();
         let seen = seen.grown(4.0 * rounding * seen.largest_coordinate());
-        let near = view.around_eye();
-        let near = near.grown(4.0 * rounding * near.largest_coordinate());
         let corner = |p: DVec3| p.extend(0.0).as_vec4().to_array();
         let clip = raster(view.receivers.size, frame.scale) * view.clip_from_eye();
         let cell = self.cell.unwrap_or_else(|| Cell::grid(1)[0]);
@@ -273,12 +274,10 @@ impl Form {
             radius: self.radius as f32,
             eye_from_origin: (view.casters.origin() - eye).as_vec3().to_array(),
             parallel: u32::from(self.center.w == 0.0),
-            near_low: corner(near.min - eye),
-            near_high: corner(near.max - eye),
             rounding: rounding as f32,
-            chunks: frame.chunks,
+            cap_chunks: frame.cap_chunks,
             scale: frame.scale,
-            pad: 0,
+            handed: self.to_light.determinant().signum() as f32,
             cell: singles([cell.low[0], cell.low[1], cell.high[0], cell.high[1]]),
             cell_sides: singles(cell.sides),
             cell_arc: singles([cell.arc_middle[0], cell.arc_middle[1], cell.arc, cell.around]),

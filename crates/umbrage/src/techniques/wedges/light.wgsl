@@ -19,16 +19,14 @@ struct WedgeLight {
     // What makes eye-relative coordinates of those of instances.
     eye_from_origin: vec3f,
     parallel: u32,
-    // A box around the eye and the near rectangle.
-    near_low: vec4f,
-    near_high: vec4f,
     // A share of coordinates by which rounding moves things.
     rounding: f32,
-    // Chunks of triangles to look at one by one, see `surface.wgsl`.
-    chunks: u32,
+    // Chunks of triangles whose caps are made, see `caps.wgsl`.
+    cap_chunks: u32,
     // Pixels of the picture that one of the buffer of shares stands for, along each side.
     scale: u32,
-    pad: u32,
+    // −1 where light space is mirrored, else 1.
+    handed: f32,
     // Of a split disc the piece: see `Cell` in the core crate. Its rectangle, what its sides start with, the arc's middle, what the arc starts
     // with, and ∮ X × dX all around.
     cell: vec4f,

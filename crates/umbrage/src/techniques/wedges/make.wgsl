@@ -156,13 +156,36 @@ fn body(a: vec3f, b: vec3f, wedge: ptr<function, Wedge>) -> bool {
     return true;
 }
 
+// Of the plane through an edge and the place where its silhouette is seen from, in light space.
+fn normal_of(seen_from: vec3f, start: vec3f, end: vec3f) -> vec3f {
+    return normalize(cross(way_to(light, seen_from, start), end - start));
+}
+
+// The same plane relative to the eye, where differences are small near the eye and the light may be far away. Zero for an edge in line with the light, or
+// without length, which has no side.
+fn plane_of(wedge: ptr<function, Wedge>) -> vec4f {
+    let start = (*wedge).eye_start;
+    let seen_from = light.center + from_light(light, (*wedge).anchor.place);
+    let way = select(seen_from - start, seen_from, light.parallel != 0u);
+    let normal = light.handed * normalize(cross(way, (*wedge).eye_end - start));
+    if !all(normal == normal) {
+        return vec4f(0.0);
+    }
+    // Of places in the plane the one nearest to the eye, which is the least rounded.
+    var place = select(start, (*wedge).eye_end, dot((*wedge).eye_end, (*wedge).eye_end) < dot(start, start));
+    if light.parallel == 0u && dot(seen_from, seen_from) < dot(place, place) {
+        place = seen_from;
+    }
+    return vec4f(normal, dot(normal, place));
+}
+
 // Cuts the body along the plane of the hard shadow.
 fn halve(wedge: ptr<function, Wedge>, across: array<vec3f, 2>, starts: array<vec3f, 2>, sum: vec3f, end: vec4f, front: vec3f) {
-    let normal = (*wedge).plane.xyz;
     undivided(wedge);
-    if dot(normal, normal) == 0.0 {
+    if all((*wedge).plane.xyz == vec3f(0.0)) {
         return;
     }
+    let normal = normal_of((*wedge).anchor.place, (*wedge).start, (*wedge).end);
     for (var i = 0u; i < 2u; i++) {
         let way = from_light(light, ray(across[i], normal, sum));
         (*wedge).corners[6u + i] = light.clip_from_eye * run(starts[i], way, end);
@@ -254,13 +277,9 @@ fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     if SPLIT {
         wedge.anchor = anchors[caster];
     }
-    let seen_from = wedge.anchor.place;
-    let normal = normalize(cross(way_to(light, seen_from, a), b - a));
-    // An edge in line with the light, or without length, has no side.
-    if all(normal == normal) {
-        wedge.plane = vec4f(normal, dot(normal, select(seen_from, a, light.parallel != 0u)));
-    }
-    wedge.eye_inside = f32(dot(wedge.plane.xyz, to_light(light, vec3f(0.0))) >= wedge.plane.w);
+    wedge.plane = plane_of(&wedge);
+    wedge.eye_inside = f32(0.0 >= wedge.plane.w);
+    wedge.from_infinity = f32((casters[caster].flags & Z_FAIL_TERMS) != 0u);
     let end = casters[caster].end;
     wedge.dark = vec4f(end.xyz, end.w + dot(end.xyz, light.eye_from_origin));
     if !body(a, b, &wedge) {

@@ -37,9 +37,9 @@ const MAKE_SHADER: Shader = Shader {
     layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
 };
 
-const SURFACE_SHADER: Shader = Shader {
-    name: "surfaces of casters",
-    parts: &[INSTANCES_WGSL, EDGES_WGSL, LIGHT, RECORD, include_str!("surface.wgsl")],
+const CAPS_SHADER: Shader = Shader {
+    name: "make caps",
+    parts: &[INSTANCES_WGSL, EDGES_WGSL, LIGHT, RECORD, include_str!("caps.wgsl")],
     layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
 };
 
@@ -132,7 +132,7 @@ const PARAMS: &[Param] = &[
     },
     Param {
         name: "unseen",
-        help: "For hosts that cull faces or hide casters from the camera: counts on the surface of no caster to end what the eye sees.",
+        help: "For hosts that cull faces or hide casters from the camera: counts all from infinity, with both sides of meshes.",
         unit: "",
         kind: ParamKind::Choice { values: &["off", "on"] },
     },
@@ -153,7 +153,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     shaders: &[
         FIND_SHADER,
         MAKE_SHADER,
-        SURFACE_SHADER,
+        CAPS_SHADER,
         DRAW_SHADER,
         APART_SHADER,
         DEPTH_SHADER,

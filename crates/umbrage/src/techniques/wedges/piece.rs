@@ -47,6 +47,8 @@ pub(super) struct Piece {
     pub buffers: Option<Buffers>,
     /// Casters or loops that are drawn one by one, where the CPU lists silhouettes.
     groups: Vec<Group>,
+    /// The shadows that the eye is in: of casters that are drawn apart a slot each, of all others the first. See [`Selection::eye_counts`].
+    eye_counts: Vec<[u32; 2]>,
 }
 
 /// What recording takes.
@@ -72,6 +74,7 @@ impl Piece {
             silhouettes,
             buffers: None,
             groups: Vec::new(),
+            eye_counts: Vec::new(),
         }
     }
 
@@ -90,23 +93,31 @@ impl Piece {
         self.groups.clear();
         if options.listed() {
             find_groups(view.casters, &self.silhouettes, &self.selection, options, &mut self.groups);
-            for chunk in &mut self.selection.chunks {
-                chunk[2] = self.groups.get(chunk[0] as usize).map_or(0, |g| g.slot);
-            }
         }
+        self.count_eye();
         let needs = Needs {
             wedges: self.silhouettes.room(Part::PassSides),
-            chunks: self.selection.chunks.len() as u32,
-            caps: self.selection.caps,
-            slots: 1 + self.groups.len() as u32,
+            caps: self.selection.caps.len() as u32,
+            slots: self.eye_counts.len() as u32,
             anchors: if self.is_split() { self.selection.anchors.len() as u32 } else { 0 },
         };
         if self.buffers.as_ref().is_none_or(|b| !b.hold(&needs)) {
             self.buffers = Some(Buffers::new(gpu, pipelines, &needs)?);
         }
         pipelines.prepare_making(gpu, self.making(view, options));
-        pipelines.prepare_making(gpu, Making::Surface { split: self.is_split() });
+        pipelines.prepare_making(gpu, Making::Caps { split: self.is_split() });
         Ok(())
+    }
+
+    fn count_eye(&mut self) {
+        self.eye_counts.clear();
+        self.eye_counts.resize(1 + self.groups.len(), [0; 2]);
+        for (throw, count) in self.selection.eye_counts.iter().enumerate() {
+            let slot = self.groups.get(throw).map_or(0, |group| group.slot);
+            let [facing, away] = count.unwrap_or_default();
+            let sum = &mut self.eye_counts[slot as usize];
+            *sum = [sum[0] + facing, sum[1] + away];
+        }
     }
 
     pub fn is_split(&self) -> bool {
@@ -125,12 +136,12 @@ impl Piece {
     /// Finds silhouettes and builds wedges.
     pub fn build(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges, r: &Recording<'_>) {
         let Some(buffers) = &self.buffers else { return };
-        let chunks = self.selection.chunks.len() as u32;
-        let frame = Frame { rounding: ROUNDING, chunks, scale: r.target.key.scale };
+        let chunks = self.selection.caps.len() as u32;
+        let frame = Frame { rounding: ROUNDING, cap_chunks: chunks, scale: r.target.key.scale };
         passes.upload(&buffers.light, bytemuck::bytes_of(&self.form.uniform(view, &frame)));
         passes.upload(&buffers.eye, bytemuck::bytes_of(&Eye::new(view)));
-        passes.upload(&buffers.chunks, bytemuck::cast_slice(&self.selection.chunks));
-        passes.encoder().clear_buffer(&buffers.eye_count, 0, None);
+        passes.upload(&buffers.cap_chunks, bytemuck::cast_slice(&self.selection.caps));
+        passes.upload(&buffers.eye_count, bytemuck::cast_slice(&self.eye_counts));
         passes.upload(&buffers.bodies, &[0; 20]);
         if self.is_split() {
             passes.upload(&buffers.anchors, bytemuck::cast_slice(&self.selection.anchors));
@@ -146,10 +157,10 @@ impl Piece {
             pass.set_bind_group(2, &buffers.make, &[]);
             pass.dispatch_workgroups(groups.min(ROW), groups.div_ceil(ROW), 1);
         }
-        let surface = r.pipelines.making(Making::Surface { split: self.is_split() });
-        if let Some(surface) = surface.filter(|_| chunks > 0) {
-            pass.set_pipeline(surface);
-            pass.set_bind_group(2, &buffers.surface, &[]);
+        let caps = r.pipelines.making(Making::Caps { split: self.is_split() });
+        if let Some(caps) = caps.filter(|_| chunks > 0) {
+            pass.set_pipeline(caps);
+            pass.set_bind_group(2, &buffers.make_caps, &[]);
             pass.dispatch_workgroups(chunks.min(ROW), chunks.div_ceil(ROW), 1);
         }
     }
@@ -165,7 +176,7 @@ impl Piece {
             match r.options.batch {
                 Batch::PerWedge => {
                     draws += self.range(&mut pass, view, Draw::Sides, 0..self.listed(), r);
-                    draws += self.caps(&mut pass, view, 0..self.selection.caps, r);
+                    draws += self.caps(&mut pass, view, 0..self.selection.caps.len() as u32, r);
                     draws += if is_soft { self.wedge_by_wedge(&mut pass, view, r) } else { 0 };
                 }
                 _ => draws += self.all(&mut pass, view, r),
@@ -238,7 +249,7 @@ impl Piece {
             pass.draw_indexed_indirect(arguments, offset);
             draws += 1;
         }
-        draws += self.caps(pass, view, 0..self.selection.caps, r);
+        draws += self.caps(pass, view, 0..self.selection.caps.len() as u32, r);
         pass.set_index_buffer(r.body_indices.slice(..), wgpu::IndexFormat::Uint16);
         let bodies: &[Draw] = match r.options.stencil {
             _ if self.form.is_point() => &[],
@@ -255,12 +266,12 @@ impl Piece {
         draws
     }
 
-    /// Surfaces that the eye may see through.
+    /// Light caps and dark caps of what is counted from infinity.
     fn caps(&self, pass: &mut wgpu::RenderPass<'_>, view: &View<'_>, chunks: Range<u32>, r: &Recording<'_>) -> u32 {
         let pipeline = r.pipelines.drawing(self.key(view, Draw::Caps, r.target));
         let Some(pipeline) = pipeline.filter(|_| !chunks.is_empty()) else { return 0 };
         pass.set_pipeline(pipeline);
-        pass.draw(chunks.start * 3 * CHUNK..chunks.end * 3 * CHUNK, 0..1);
+        pass.draw(chunks.start * 3 * CHUNK..chunks.end * 3 * CHUNK, 0..2);
         1
     }
 

@@ -1,9 +1,9 @@
 //! Pipelines that build, count and draw wedges.
 
 use super::APART_SHADER;
+use super::CAPS_SHADER;
 use super::DEPTH_SHADER;
 use super::MAKE_SHADER;
-use super::SURFACE_SHADER;
 use super::draws::Draw;
 use super::light::Face;
 use super::tables::Term;
@@ -15,7 +15,7 @@ use crate::{gpu::Gpu, visibility::VisibilityTarget};
 /// Made once.
 pub(super) struct Pipelines {
     pub make_layout: wgpu::BindGroupLayout,
-    pub surface_layout: wgpu::BindGroupLayout,
+    pub caps_layout: wgpu::BindGroupLayout,
     pub draw_layout: wgpu::BindGroupLayout,
     pub resolve_layout: wgpu::BindGroupLayout,
     pub apart_layout: wgpu::BindGroupLayout,
@@ -49,8 +49,8 @@ pub(super) enum Making {
         split: bool,
         halves: bool,
     },
-    /// Counts the shadows of the eye and lists surfaces that it may see through.
-    Surface { split: bool },
+    /// Makes the caps of what is counted from infinity.
+    Caps { split: bool },
 }
 
 /// A drawing pipeline.
@@ -96,12 +96,7 @@ impl Pipelines {
             if blends { (Format::Rg32Float, Format::Rgba32Float) } else { (Format::Rg16Float, Format::Rgba16Float) };
         Self {
             make_layout: layout(gpu, "make wedges", compute, &[UNIFORM, STORAGE_WRITE, STORAGE_WRITE, STORAGE]),
-            surface_layout: layout(
-                gpu,
-                "surfaces",
-                compute,
-                &[UNIFORM, STORAGE, STORAGE_WRITE, STORAGE, STORAGE_WRITE],
-            ),
+            caps_layout: layout(gpu, "make caps", compute, &[UNIFORM, STORAGE, STORAGE_WRITE, STORAGE]),
             draw_layout: layout(gpu, "wedges", both, &[UNIFORM, UNIFORM, STORAGE, STORAGE]),
             resolve_layout: layout(gpu, "covered shares", fragment, &[UNIFORM, UNIFORM, layers, STORAGE, STORAGE]),
             apart_layout: layout(gpu, "a loop's shares", fragment, &[texture(FLOATS), STORAGE]),
@@ -128,9 +123,9 @@ impl Pipelines {
                 let constants = [("FAR", far), ("SPLIT", on(split)), ("HALVES", on(halves))];
                 self.compute(gpu, &MAKE_SHADER.module(gpu), "make", &self.make_layout, &constants)
             }
-            Making::Surface { split } => {
+            Making::Caps { split } => {
                 let constants = [("SPLIT", on(split))];
-                self.compute(gpu, &SURFACE_SHADER.module(gpu), "look", &self.surface_layout, &constants)
+                self.compute(gpu, &CAPS_SHADER.module(gpu), "make", &self.caps_layout, &constants)
             }
         };
         self.making.push((key, made));

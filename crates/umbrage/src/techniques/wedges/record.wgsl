@@ -10,10 +10,11 @@ struct Wedge {
     front_inside: f32,
     // In light space.
     start: vec3f,
-    pad_b: f32,
+    // 1 where the hard shadow is counted from infinity, 0 where from the eye.
+    from_infinity: f32,
     end: vec3f,
     pad_c: f32,
-    // The plane n · p = w through edge and light, n towards the side of the shadow, in light space.
+    // The plane n · p = w through edge and light, n towards the side of the shadow, relative to the eye.
     plane: vec4f,
     // How often it counts: among the sides of bodies that face the light and among those that face away. Sheets and closed
     // bodies count on both.
@@ -29,14 +30,17 @@ struct Wedge {
     anchor: Anchor,
 }
 
-// A triangle of a caster's surface, where the eye may see through it.
+// A triangle of a caster that is counted from infinity.
 struct Cap {
-    // Corners relative to the eye, counter-clockwise seen from the light.
-    corners: array<vec4f, 3>,
-    // The plane n · p = w, n away from the light, in light space.
+    // Corners relative to the eye, counter-clockwise seen from the light, and their shadows, homogeneous.
+    lit: array<vec4f, 3>,
+    dark: array<vec4f, 3>,
+    // Its plane n · p = w relative to the eye, n away from the light.
     plane: vec4f,
     // As those of a wedge; 0 if it throws no shadow.
     weights: vec2f,
+    // How far rounding moves it, metres.
+    off: f32,
 }
 
 // Where a ray ends, homogeneous: at a plane or infinitely far away.

@@ -12,8 +12,8 @@ use crate::{error::Error, gpu::Gpu, receivers::Receivers, view::View};
 /// Bytes of a record, see `record.wgsl`.
 const RECORD: u64 = 352;
 
-/// Bytes of the surfaces of a chunk, see `record.wgsl`.
-const CAPS: usize = 80 * CHUNK as usize;
+/// Bytes of the caps of a chunk, see `record.wgsl`.
+const CAPS: usize = 128 * CHUNK as usize;
 
 /// Wedges that an instance draws, see `draw.wgsl`.
 pub(super) const GROUP: u32 = 64;
@@ -22,9 +22,9 @@ pub(super) const GROUP: u32 = 64;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Needs {
     pub wedges: u32,
-    /// Of triangles that are looked at, and the first of them that are drawn, see `surface.wgsl`.
-    pub chunks: u32,
+    /// Chunks of triangles that are drawn.
     pub caps: u32,
+    /// Casters that are drawn apart, and one for all others.
     pub slots: u32,
     /// Of casters, if the light is split.
     pub anchors: u32,
@@ -37,12 +37,12 @@ pub(super) struct Buffers {
     pub wedges: wgpu::Buffer,
     /// Arguments of the draw of all bodies.
     pub bodies: wgpu::Buffer,
-    pub chunks: wgpu::Buffer,
+    pub cap_chunks: wgpu::Buffer,
     pub caps: wgpu::Buffer,
     pub eye_count: wgpu::Buffer,
     pub anchors: wgpu::Buffer,
     pub make: wgpu::BindGroup,
-    pub surface: wgpu::BindGroup,
+    pub make_caps: wgpu::BindGroup,
     pub draw: wgpu::BindGroup,
     pub depth: wgpu::BindGroup,
 }
@@ -75,8 +75,8 @@ impl Buffers {
         let some = |label, number: u32, bytes: usize, usage| {
             buffer(label, u64::from(number.max(1).next_power_of_two()) * bytes as u64, Usage::STORAGE | usage)
         };
-        let chunks = some("chunks of triangles", needs.chunks, 16, Usage::empty());
-        let caps = some("surfaces that are seen through", needs.caps, CAPS, Usage::empty());
+        let cap_chunks = some("chunks of caps", needs.caps, 8, Usage::empty());
+        let caps = some("caps", needs.caps, CAPS, Usage::empty());
         let eye_count = some("shadows of the eye", needs.slots, 8, Usage::COPY_SRC);
         let anchors = some("where silhouettes are seen from", needs.anchors, size_of::<Anchor>(), Usage::empty());
         let all = |buffers: &[&wgpu::Buffer], layout| {
@@ -85,14 +85,14 @@ impl Buffers {
         };
         Ok(Self {
             make: all(&[&light, &wedges, &bodies, &anchors], &pipelines.make_layout),
-            surface: all(&[&light, &chunks, &eye_count, &anchors, &caps], &pipelines.surface_layout),
+            make_caps: all(&[&light, &cap_chunks, &caps, &anchors], &pipelines.caps_layout),
             draw: all(&[&light, &eye, &wedges, &caps], &pipelines.draw_layout),
             depth: all(&[&light], &pipelines.depth_layout),
             light,
             eye,
             wedges,
             bodies,
-            chunks,
+            cap_chunks,
             caps,
             eye_count,
             anchors,
@@ -101,14 +101,14 @@ impl Buffers {
 
     pub fn hold(&self, needs: &Needs) -> bool {
         self.wedges.size() >= u64::from(needs.wedges.next_multiple_of(GROUP)) * RECORD
-            && self.chunks.size() >= u64::from(needs.chunks) * 16
+            && self.cap_chunks.size() >= u64::from(needs.caps) * 8
             && self.caps.size() >= u64::from(needs.caps) * CAPS as u64
             && self.eye_count.size() >= u64::from(needs.slots) * 8
             && self.anchors.size() >= u64::from(needs.anchors) * size_of::<Anchor>() as u64
     }
 
     pub fn bytes(&self) -> u64 {
-        let small = [&self.light, &self.eye, &self.bodies, &self.chunks, &self.eye_count, &self.anchors];
+        let small = [&self.light, &self.eye, &self.bodies, &self.cap_chunks, &self.eye_count, &self.anchors];
         small.into_iter().chain([&self.wedges, &self.caps]).map(|b| b.size()).sum()
     }
 }

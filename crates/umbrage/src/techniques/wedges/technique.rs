@@ -15,6 +15,7 @@ use super::pipelines::Key;
 use super::pipelines::Pipelines;
 use super::pipelines::Resolve;
 use super::select::Selection;
+use super::select::is_on_a_caster;
 use super::tables::Tables;
 use super::tables::Term;
 use super::targets::Buffers;
@@ -104,7 +105,7 @@ impl Wedges {
             }
             let piece = &mut self.pieces[i];
             piece.term = self.tables.term_of(&piece.form);
-            piece.selection.choose(gpu, view, &piece.form, ROUNDING, self.options.unseen)?;
+            piece.selection.choose(gpu, view, &piece.form, self.options.unseen)?;
         }
         Ok(())
     }
@@ -235,7 +236,7 @@ impl Wedges {
 
     /// What resolving reads.
     fn upload(&self, passes: &mut Passes<'_>, view: &View<'_>, form: &Form, target: &Target) {
-        let frame = Frame { rounding: ROUNDING, chunks: 0, scale: target.key.scale };
+        let frame = Frame { rounding: ROUNDING, cap_chunks: 0, scale: target.key.scale };
         let weights: Vec<f32> = self.pieces.iter().map(|p| p.form.weight as f32).collect();
         passes.upload(&self.whole.light, bytemuck::bytes_of(&form.uniform(view, &frame)));
         passes.upload(&self.whole.eye, bytemuck::bytes_of(&Eye::new(view)));
@@ -317,11 +318,14 @@ impl Technique for Wedges {
         }
         // Masks have the picture in their samples.
         let has_picture = !self.is_masked() && self.tables.prepare(gpu, view);
-        let form = Form::of(&view.light.shape, has_picture, self.options.point_radius);
+        let mut form = Form::of(&view.light.shape, has_picture, self.options.point_radius);
+        if form.is_point() && is_on_a_caster(gpu, view, form.center)? {
+            form = form.off_ties(view.rounding());
+        }
         self.casting = view.casters.casting().len() as u32;
         self.form = Some(form);
         if self.is_masked() {
-            self.mask_selection.choose(gpu, view, &form, ROUNDING, false)?;
+            self.mask_selection.choose(gpu, view, &form, false)?;
             if !self.is_lit() {
                 let mask = self.mask.get_or_insert_with(|| Mask::new(gpu, self.options.samples));
                 mask.prepare(gpu, view, &form, &self.mask_selection, ROUNDING)?;

@@ -14,22 +14,18 @@ fn line() -> @location(0) vec4f {
 // Wedges that the point is in, and fragments that ask.
 @fragment
 fn count(in: Body) -> @location(0) vec2f {
-    let depth = textureLoad(receiver_depth, vec2i(in.position.xy), 0);
-    let is_in = depth != eye.background_depth && is_in_body(in, receiver(in.position.xy, depth));
-    return vec2f(f32(is_in), 1.0);
+    return vec2f(f32(met(in).hit), 1.0);
 }
 
 // Edges that cross the light, with the point on the side of the shadow and on the other one.
 @fragment
 fn crossing(in: Body) -> @location(0) vec2f {
-    let depth = textureLoad(receiver_depth, vec2i(in.position.xy), 0);
-    let p = receiver(in.position.xy, depth);
-    if depth == eye.background_depth || !is_in_body(in, p) {
+    let at = met(in);
+    if !at.hit {
         discard;
     }
-    let inside = is_inside(p, in.plane, in.eye_inside);
-    let crosses = share_of_edge(light, p, in.start.xyz, in.end.xyz, inside) != 0.0;
+    let crosses = share_of_edge(light, at.p, in.start.xyz, in.end.xyz, at.inside) != 0.0;
     // On which side the shadow is goes by the sign of how often it counts.
-    let is_dark = inside == (in.start.w + in.end.w > 0.0);
+    let is_dark = at.inside == (in.start.w + in.end.w > 0.0);
     return f32(crosses) * vec2f(f32(is_dark), f32(!is_dark));
 }

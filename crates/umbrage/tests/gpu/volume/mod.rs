@@ -30,8 +30,8 @@ use umbrage_reference::{Options, Tracer};
 /// The ways to count that are right everywhere.
 pub const COUNTS: [&str; 3] = ["count=z-fail", "count=auto", "count=z-pass-eye"];
 
-/// All ways to hard shadows that are exact to the pixel: those, and wedges of a light that has no size.
-pub const EXACT: [&str; 4] = ["count=z-fail", "count=auto", "count=z-pass-eye", "wedges"];
+/// All ways to hard shadows that are exact to the pixel: those, and wedges of a light that has no size, counted from the eye and from infinity.
+pub const EXACT: [&str; 5] = ["count=z-fail", "count=auto", "count=z-pass-eye", "wedges", "wedges:unseen=on"];
 
 /// A scene that several settings of the technique draw, to be seen from anywhere under any light.
 pub struct Bench {

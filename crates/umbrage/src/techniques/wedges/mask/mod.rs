@@ -218,7 +218,7 @@ impl Mask {
             return;
         };
         passes
-            .upload(&self.light, bytemuck::bytes_of(&form.uniform(view, &Frame { rounding, chunks: 0, scale: 1 })));
+            .upload(&self.light, bytemuck::bytes_of(&form.uniform(view, &Frame { rounding, cap_chunks: 0, scale: 1 })));
         passes.upload(&self.eye, bytemuck::bytes_of(&Eye::new(view)));
         passes.upload(&self.samples, bytemuck::cast_slice(&self.sample_data));
         passes.upload(&self.top.buffer, bytemuck::cast_slice(&self.top_data));
