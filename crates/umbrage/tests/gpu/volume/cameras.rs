@@ -1,6 +1,6 @@
 //! Eyes at exact places: in shadows, in casters, on the border of a shadow, and near planes that cut.
 
-use super::{Bench, COUNTS, EXACT, assert_none, floor, put};
+use super::{Bench, EXACT, assert_none, floor, put};
 use crate::common::gpu;
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Camera, Light, LightShape, Scene, primitive};

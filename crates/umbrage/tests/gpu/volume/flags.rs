@@ -1,6 +1,6 @@
 //! What casts, what receives, and how much memory that takes.
 
-use super::{Bench, COUNTS, EXACT, assert_none, floor, put};
+use super::{Bench, EXACT, assert_none, floor, put};
 use crate::common::{gpu, renderer};
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Image, LightShape, Scene, primitive};

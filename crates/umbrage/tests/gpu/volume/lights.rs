@@ -1,6 +1,6 @@
 //! Lights at exact places: on corners, edges and planes, and within casters.
 
-use super::{Bench, COUNTS, EXACT, Target, assert_none, floor, put};
+use super::{Bench, EXACT, Target, assert_none, floor, put};
 use crate::common::gpu;
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Camera, Light, LightShape, Mesh, Scene, primitive};

@@ -1,7 +1,7 @@
 //! Triangles that do not make a surface.
 
 use super::random::Random;
-use super::{Bench, COUNTS, EXACT, assert_none, floor, put};
+use super::{Bench, EXACT, assert_none, floor, put};
 use crate::common::gpu;
 use umbrage::core::glam::{DAffine3, DVec3, Vec3};
 use umbrage::core::{Light, LightShape, Mesh, primitive};

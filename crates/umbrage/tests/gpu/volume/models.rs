@@ -1,7 +1,7 @@
 //! Models as people make them: open, with parts that run into each other.
 
 use super::random::Random;
-use super::{Bench, COUNTS, EXACT, assert_none, put};
+use super::{Bench, EXACT, assert_none, put};
 use crate::common::{gpu, shared};
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Light, LightShape, Scene, primitive};

@@ -1,7 +1,7 @@
 //! Random views of all procedural scenes.
 
 use super::random::Random;
-use super::{Bench, COUNTS, EXACT, Target, assert_none};
+use super::{Bench, EXACT, Target, assert_none};
 use crate::common::gpu;
 use umbrage::core::scenes::SCENES;
 use umbrage::core::{Camera, Light, Scene};
