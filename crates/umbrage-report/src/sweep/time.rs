@@ -13,12 +13,13 @@ use crate::{
 };
 use umbrage::Gpu;
 
-/// GPU memory of the settings that take turns; one that needs more is measured alone with the yardsticks.
-const BATCH_BYTES: u64 = 4 << 30;
+/// GPU memory of the settings that take turns: little enough for any adapter. One that needs more is measured alone with the yardsticks.
+const BATCH_BYTES: u64 = 1 << 30;
 
-/// Targets of a renderer for each pixel, and what it holds of a triangle, roughly.
+/// Targets of a renderer for each pixel, what it holds of a triangle, and its pipelines, roughly.
 const PIXEL_BYTES: u64 = 48;
 const TRIANGLE_BYTES: u64 = 256;
+const PIPELINE_BYTES: u64 = 8 << 20;
 
 /// Map size of the bare minimum that others are set against.
 const USUAL_MAP: f64 = 1024.0;
@@ -53,7 +54,7 @@ impl Timing<'_> {
     ) -> Result<(Vec<Timed>, Yardsticks), Error> {
         let (width, height) = self.size;
         let pixels = u64::from(width) * u64::from(height);
-        let own = PIXEL_BYTES * pixels + TRIANGLE_BYTES * self.source.scene.triangle_count() as u64;
+        let own = PIPELINE_BYTES + PIXEL_BYTES * pixels + TRIANGLE_BYTES * self.source.scene.triangle_count() as u64;
         let bytes: Vec<u64> = choices.iter().map(|(_, bytes)| bytes + own).collect();
         let mut baselines = Vec::new();
         let mut timed: Vec<(usize, Timed)> = Vec::new();

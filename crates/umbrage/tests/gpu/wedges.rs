@@ -62,14 +62,25 @@ fn errors_on_stored_scenes_are_as_stated() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// Where casters overlap, where the silhouette changes from one end of the light to the other, and where neither is so: 256 samples of the light are
+/// off by their number alone.
+const MASKED: &[&str] = &["overlap", "models", "boxes-rect", "boxes-disc", "fence"];
+
 #[test]
-fn masks_are_exact_where_casters_overlap() {
+fn masks_are_exact_whatever_casts() {
     if shared().is_none() {
-        println!("masks_are_exact_where_casters_overlap skipped: no shared reference pictures (set UMBRAGE_SHARED)");
+        println!("masks_are_exact_whatever_casts skipped: no shared reference pictures (set UMBRAGE_SHARED)");
         return;
     }
-    let (got, interior) = vs_hard("overlap", 0, "combine=bitmask,samples=256").expect("it is among the stored scenes");
-    assert!(got < 0.03 && interior >= 99.95, "vs_hard {got:.4}, interior {interior:.3} %");
+    let mut wrong = Vec::new();
+    for name in MASKED {
+        let (got, interior) = vs_hard(name, 0, "combine=bitmask,samples=256").expect("it is among the stored scenes");
+        println!("{name}: vs_hard {got:.4}, interior {interior:.3} %");
+        if got > 0.025 || interior < 99.95 {
+            wrong.push(format!("{name}: vs_hard {got:.4}, interior {interior:.3} %"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// A floor and an eight-pointed plate over it.

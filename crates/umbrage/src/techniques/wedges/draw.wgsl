@@ -106,9 +106,6 @@ fn cap(@builtin(vertex_index) vertex: u32, @builtin(instance_index) end: u32) ->
     return out;
 }
 
-// Steps of a depth buffer that a surface and what is seen of it may be apart.
-const DEPTH_STEPS: u32 = 4u;
-
 // Lines of sight leave the shadow through its dark end, going the light's way, and enter where it is no farther than the surface. The surface itself, where it is what is seen, is in front of
 // its shadow on one side and behind it on the other.
 @fragment
@@ -123,8 +120,8 @@ fn add_cap(in: CapCorner, @builtin(front_facing) from_outside: bool) -> @locatio
     }
     let eye_inside = f32(!from_outside);
     let p = position_eye(eye, pixel, depth);
-    let next = position_eye(eye, pixel, bitcast<f32>(bitcast<u32>(depth) + DEPTH_STEPS));
-    let inside = is_inside_within(p, in.plane, eye_inside, in.off + abs(dot(in.plane.xyz, next - p)));
+    let off = in.off + position_rounding(eye, depth, 1.0 / eye_w(eye, ndc_of(eye, pixel, depth)));
+    let inside = is_inside_within(p, in.plane, eye_inside, off);
     return in.weights * (f32(inside) - (1.0 - eye_inside));
 }
 
