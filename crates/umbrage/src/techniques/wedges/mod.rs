@@ -122,7 +122,7 @@ const PARAMS: &[Param] = &[
         name: "samples",
         help: "Samples of the light with `combine = bitmask`; rounded up to a multiple of 32.",
         unit: "",
-        kind: ParamKind::Int { min: 32, max: 256, default: 64 },
+        kind: ParamKind::Int { min: 32, max: 256, default: 256 },
     },
     Param {
         name: "radius",

@@ -31,8 +31,8 @@ struct Placed {
 @group(1) @binding(4) var<storage, read> positions: array<f32>;
 @group(1) @binding(5) var<storage, read> top: array<TreeNode>;
 @group(1) @binding(6) var<storage, read> placed: array<Placed>;
-// Of four samples at a time x, then y.
-@group(1) @binding(7) var<storage, read> samples: array<vec4f>;
+// The samples in each half plane of the face, see `half_planes.rs`.
+@group(1) @binding(7) var<storage, read> half_planes: array<vec4u>;
 
 const LEAF_BITS: u32 = 8u;
 
@@ -44,8 +44,14 @@ struct Rows {
 }
 
 override FACE: u32 = BALL;
-// 32 samples each.
+// 32 samples each, and four words each.
 override WORDS: u32 = 2u;
+override FOURS: u32 = 1u;
+// How far from the middle of the face there are samples.
+override REACH: f32 = 1.0;
+// Half planes are known by the turn of their normal and their distance from the middle, in so many steps.
+override TURNS: f32 = 128.0;
+override DISTANCES: f32 = 128.0;
 
 // Two unit vectors that make a right-handed system with a third one (Duff et al. 2017).
 fn across(z: vec3f) -> array<vec3f, 2> {
@@ -140,66 +146,40 @@ fn strike(rows: Rows, p: vec3f, triangle: u32, tolerance: f32) {
     let u = cross(a, b) * side;
     let v = cross(b, c) * side;
     let w = cross(c, a) * side;
-    let sum = u + v + w;
     // A sample is hidden where the ray to it passes on the same side of all edges, and meets the plane before the light.
     let least = select(abs(volume), 0.0, light.parallel != 0u);
-    let edges = Edges(vec3f(u.x, v.x, w.x), vec3f(u.y, v.y, w.y), vec3f(u.z, v.z, w.z), sum, least);
-    strike_all(edges);
+    let before = u + v + w - vec3f(0.0, 0.0, least);
+    let halves = array<Half, 4>(half_of(u), half_of(v), half_of(w), half_of(before));
+    first |= samples_in(halves[0], 0u) & samples_in(halves[1], 0u) & samples_in(halves[2], 0u) & samples_in(halves[3], 0u);
+    if FOURS > 1u {
+        second |= samples_in(halves[0], 1u) & samples_in(halves[1], 1u) & samples_in(halves[2], 1u) & samples_in(halves[3], 1u);
+    }
 }
 
-// Lines over a triangle's edges on the face, positive inside, the sum of all and its least value.
-struct Edges {
-    x: vec3f,
-    y: vec3f,
-    z: vec3f,
-    sum: vec3f,
-    least: f32,
+// Where the table has a half plane, or the other side of its line.
+struct Half {
+    at: u32,
+    other: u32,
 }
 
-// Of four samples.
-fn struck4(edges: Edges, at: u32) -> u32 {
-    let x = samples[2u * at];
-    let y = samples[2u * at + 1u];
-    let one = edges.x.x * x + edges.y.x * y + edges.z.x;
-    let two = edges.x.y * x + edges.y.y * y + edges.z.y;
-    let three = edges.x.z * x + edges.y.z * y + edges.z.z;
-    let far = edges.sum.x * x + edges.sum.y * y + edges.sum.z - edges.least;
-    let is_hidden = min(min(one, two), min(three, far)) >= vec4f(0.0);
-    let bits = select(vec4u(0u), vec4u(1u, 2u, 4u, 8u), is_hidden);
-    return bits.x | bits.y | bits.z | bits.w;
+// The half plane x X + y Y + z ≥ 0. Triangles beside each other ask for both sides of one line, so that no sample falls between them.
+fn half_of(line: vec3f) -> Half {
+    var l = line;
+    if FACE == LINE {
+        l.y = 0.0;
+    }
+    let is_other = l.x < 0.0 || (l.x == 0.0 && l.y < 0.0);
+    l = select(l, -l, is_other);
+    let turn = 0.5 + 0.5 * l.y / max(l.x + abs(l.y), 1e-30);
+    let distance = 0.5 + 0.5 * l.z * inverseSqrt(max(dot(l.xy, l.xy), 1e-30)) / REACH;
+    // The first step holds none and the last one all.
+    let step = clamp(distance * (DISTANCES - 2.0) + 1.0, 0.0, DISTANCES - 1.0);
+    let at = u32(min(turn * TURNS, TURNS - 1.0)) * u32(DISTANCES) + u32(step);
+    return Half(at * FOURS, select(0u, 0xffffffffu, is_other));
 }
 
-// Without a loop, whose rounds some drivers count.
-fn struck(edges: Edges, word: u32) -> u32 {
-    let at = 8u * word;
-    return struck4(edges, at) | (struck4(edges, at + 1u) << 4u) | (struck4(edges, at + 2u) << 8u)
-        | (struck4(edges, at + 3u) << 12u) | (struck4(edges, at + 4u) << 16u) | (struck4(edges, at + 5u) << 20u)
-        | (struck4(edges, at + 6u) << 24u) | (struck4(edges, at + 7u) << 28u);
-}
-
-fn strike_all(edges: Edges) {
-    first.x |= struck(edges, 0u);
-    if WORDS > 1u {
-        first.y |= struck(edges, 1u);
-    }
-    if WORDS > 2u {
-        first.z |= struck(edges, 2u);
-    }
-    if WORDS > 3u {
-        first.w |= struck(edges, 3u);
-    }
-    if WORDS > 4u {
-        second.x |= struck(edges, 4u);
-    }
-    if WORDS > 5u {
-        second.y |= struck(edges, 5u);
-    }
-    if WORDS > 6u {
-        second.z |= struck(edges, 6u);
-    }
-    if WORDS > 7u {
-        second.w |= struck(edges, 7u);
-    }
+fn samples_in(half: Half, four: u32) -> vec4u {
+    return half_planes[half.at + four] ^ vec4u(half.other);
 }
 
 fn walk_mesh(rows: Rows, p: vec3f, place: Placed) {
@@ -259,8 +239,11 @@ fn strike_horizon(p: vec3f, rows: Rows, normal: vec3f) {
     } else if FACE == LINE {
         y = 0.0;
     }
-    let line = vec3f(x, y, height) * -1.0;
-    strike_all(Edges(line.xxx, line.yyy, line.zzz, line, 0.0));
+    let below = half_of(-vec3f(x, y, height));
+    first |= samples_in(below, 0u);
+    if FOURS > 1u {
+        second |= samples_in(below, 1u);
+    }
 }
 
 @fragment

@@ -1,5 +1,6 @@
 //! `combine = bitmask`: every point keeps one bit for each sample of the light, and triangles strike them out.
 
+mod half_planes;
 mod tree;
 
 use super::light::{Face, Form, Frame};
@@ -10,6 +11,7 @@ use crate::fullscreen::{Fullscreen, STORAGE, UNIFORM, bind, layout};
 use crate::receivers::Receivers;
 use crate::shader::{FULLSCREEN, RECEIVERS, Shader, shader_struct};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+use half_planes::{DISTANCES, TURNS, half_planes};
 use std::ops::Range;
 use tree::{Boxed, TreeNode, append};
 use umbrage_core::glam::{DAffine3, DVec2, Vec3};
@@ -46,8 +48,10 @@ pub(super) struct Mask {
     meshes: Option<Meshes>,
     light: wgpu::Buffer,
     eye: wgpu::Buffer,
-    samples: wgpu::Buffer,
-    sample_data: Vec<[f32; 4]>,
+    /// What half planes were made of, and they.
+    samples: Vec<DVec2>,
+    half_planes: wgpu::Buffer,
+    new_half_planes: Option<Vec<[u32; 4]>>,
     top: Grown,
     placed: Grown,
     top_data: Vec<TreeNode>,
@@ -114,8 +118,9 @@ impl Mask {
             meshes: None,
             light: gpu.buffer("light", &[super::light::WedgeLight::default()], uniform),
             eye: gpu.buffer("eye", &[Eye::default()], uniform),
-            samples: storage(gpu, "samples", u64::from(words * WORD) * 8),
-            sample_data: Vec::new(),
+            samples: Vec::new(),
+            half_planes: storage(gpu, "half planes", u64::from(TURNS * DISTANCES * words.div_ceil(4)) * 16),
+            new_half_planes: None,
             top: Grown::new(gpu, "boxes of casters"),
             placed: Grown::new(gpu, "placed meshes"),
             top_data: Vec::new(),
@@ -159,8 +164,11 @@ impl Mask {
         }
         self.placed_data.clear();
         self.placed_data.extend(order.iter().map(|i| records[*i as usize]));
-        self.sample_data.clear();
-        self.sample_data.extend(samples(view, form, self.words * WORD));
+        let samples = samples(view, form, self.words * WORD);
+        if self.samples != samples {
+            self.new_half_planes = Some(half_planes(&samples, reach(form.face)));
+            self.samples = samples;
+        }
         let grown = [
             self.top.fit(gpu, size_of_val(&self.top_data[..]))?,
             self.placed.fit(gpu, size_of_val(&self.placed_data[..]))?,
@@ -177,7 +185,7 @@ impl Mask {
                 &casters.positions,
                 &self.top.buffer,
                 &self.placed.buffer,
-                &self.samples,
+                &self.half_planes,
             ];
             let entries = buffers.map(|b| b.as_entire_binding());
             self.bind_group = Some(bind(gpu, "samples of a light", &self.layout, &entries));
@@ -191,7 +199,15 @@ impl Mask {
             return;
         }
         let has = if has_normals { 1.0 } else { 0.0 };
-        let constants = [("FACE", f64::from(face as u32)), ("WORDS", f64::from(self.words)), ("HAS_NORMALS", has)];
+        let constants = [
+            ("FACE", f64::from(face as u32)),
+            ("WORDS", f64::from(self.words)),
+            ("FOURS", f64::from(self.words.div_ceil(4))),
+            ("REACH", reach(face)),
+            ("TURNS", f64::from(TURNS)),
+            ("DISTANCES", f64::from(DISTANCES)),
+            ("HAS_NORMALS", has),
+        ];
         let made = Fullscreen {
             label: "samples of a light",
             module: &self.module,
@@ -220,7 +236,9 @@ impl Mask {
         passes
             .upload(&self.light, bytemuck::bytes_of(&form.uniform(view, &Frame { rounding, cap_chunks: 0, scale: 1 })));
         passes.upload(&self.eye, bytemuck::bytes_of(&Eye::new(view)));
-        passes.upload(&self.samples, bytemuck::cast_slice(&self.sample_data));
+        if let Some(made) = self.new_half_planes.take() {
+            passes.upload(&self.half_planes, bytemuck::cast_slice(&made));
+        }
         passes.upload(&self.top.buffer, bytemuck::cast_slice(&self.top_data));
         passes.upload(&self.placed.buffer, bytemuck::cast_slice(&self.placed_data));
         if std::mem::take(&mut meshes.is_new) {
@@ -236,7 +254,7 @@ impl Mask {
 
     /// Bytes of GPU memory.
     pub fn bytes(&self) -> u64 {
-        let own = [&self.light, &self.eye, &self.samples, &self.top.buffer, &self.placed.buffer];
+        let own = [&self.light, &self.eye, &self.half_planes, &self.top.buffer, &self.placed.buffer];
         let meshes = self.meshes.as_ref().map_or(0, |m| m.nodes.buffer.size() + m.triangles.buffer.size());
         own.map(|b| b.size()).iter().sum::<u64>() + meshes
     }
@@ -314,8 +332,13 @@ fn around([a, b, c]: [Vec3; 3]) -> Boxed {
     Boxed(a.min(b).min(c), a.max(b).max(c))
 }
 
+/// How far from the middle of the face there are samples.
+fn reach(face: Face) -> f64 {
+    if matches!(face, Face::Square | Face::Picture) { std::f64::consts::SQRT_2 } else { 1.0 }
+}
+
 /// Points of the light on its face.
-fn samples(view: &View<'_>, form: &Form, count: u32) -> Vec<[f32; 4]> {
+fn samples(view: &View<'_>, form: &Form, count: u32) -> Vec<DVec2> {
     let picture = match view.light.shape {
         LightShape::Rect { texture: Some(index), .. } => view.textures.get(index).and_then(Luminance::of),
         _ => None,
@@ -326,8 +349,5 @@ fn samples(view: &View<'_>, form: &Form, count: u32) -> Vec<[f32; 4]> {
         Face::Line => DVec2::new(u.x * 2.0 - 1.0, 0.0),
         Face::Square | Face::Picture => picture.as_ref().map_or(u, |p| p.sample(u)) * 2.0 - 1.0,
     };
-    let points: Vec<[f32; 2]> = lattice(count as usize).into_iter().map(|u| on_face(u).as_vec2().to_array()).collect();
-    // Of four at a time x, then y.
-    let four = |p: &[[f32; 2]; 4]| [p.map(|p| p[0]), p.map(|p| p[1])];
-    points.as_chunks::<4>().0.iter().flat_map(four).collect()
+    lattice(count as usize).into_iter().map(on_face).collect()
 }
