@@ -4,7 +4,7 @@ use umbrage_core::glam::DVec2;
 
 /// Steps of a half plane's normal over half a turn, and of its distance from the middle. An edge is off by half a step: less than samples are apart.
 pub(super) const TURNS: u32 = 128;
-pub(super) const DISTANCES: u32 = 128;
+pub(super) const DISTANCES: u32 = 256;
 
 /// Samples in four words.
 const FOUR: usize = 128;
@@ -49,7 +49,7 @@ mod tests {
             let at = (f64::from(turn) + 0.5) / 64.0 - 1.0;
             let normal = DVec2::new(1.0 - at.abs(), at).normalize();
             for step in 0..DISTANCES {
-                let distance = (f64::from(step) - 0.5) / 63.0 - 1.0;
+                let distance = (f64::from(step) - 0.5) / f64::from(DISTANCES / 2 - 1) - 1.0;
                 for (i, sample) in samples.iter().enumerate() {
                     let word = table[(turn * DISTANCES + step) as usize * 2 + i / 128][i % 128 / 32];
                     let is_in = word >> (i % 32) & 1 == 1;
@@ -72,6 +72,6 @@ mod tests {
     fn samples_in_one_place_go_by_the_sign() {
         let table = half_planes(&[DVec2::ZERO; 32], 1.0);
         let of = |step: u32| table[(64 * DISTANCES + step) as usize][0];
-        assert_eq!((of(63), of(64)), (0, u32::MAX));
+        assert_eq!((of(DISTANCES / 2 - 1), of(DISTANCES / 2)), (0, u32::MAX));
     }
 }
