@@ -19,7 +19,7 @@ const MOST_FLAT: f64 = 0.1;
 /// Sides end behind what is seen by this share of its size: more than the rasteriser's own rounding of corners comes to.
 const BEHIND: f64 = 2e-3;
 
-/// Triangles that are looked at together, see `surface.wgsl`.
+/// Triangles that are looked at together, see `caps.wgsl`.
 pub(super) const CHUNK: u32 = 64;
 
 /// The casters of a frame. Keeps its memory.
@@ -34,6 +34,19 @@ pub(super) struct Selection {
     /// Of casters that are counted from infinity, chunks of triangles: the number of the throw and the first triangle.
     pub caps: Vec<[u32; 2]>,
     found: Vec<u32>,
+}
+
+/// What choosing goes by, the same for all casters.
+struct Scope<'a> {
+    view: &'a View<'a>,
+    form: &'a Form,
+    /// Where shadows are seen.
+    seen: Bounds,
+    /// How far rounding moves things, metres.
+    rounding: f64,
+    around_eye: Bounds,
+    /// Of [`Options`](super::options::Options).
+    unseen: bool,
 }
 
 impl Selection {
@@ -58,8 +71,8 @@ impl Selection {
         // Segments from the eye to what is seen stay in this box. One plane a caster, so that neighbours share corners.
         let seen = view.seen().with(view.camera.eye);
         let seen = seen.grown(BEHIND * seen.size().length());
-        let margin = view.rounding();
-        let around_eye = view.around_eye();
+        let (rounding, around_eye) = (view.rounding(), view.around_eye());
+        let scope = Scope { view, form, seen, rounding, around_eye, unseen };
         let lights: Vec<_> = hull.iter().map(|center| casters::Light { center: *center, receivers }).collect();
         for i in 0..self.found.len() {
             let place = self.found[i];
@@ -70,27 +83,33 @@ impl Selection {
             }
             let mesh = edges.of_mesh(placed.mesh);
             if !mesh.adjacency.edges.is_empty() {
-                let (anchor, axis) = form.anchor(placed.bounds.center());
-                let light = form.in_world(anchor);
-                let end = shadow_end(&seen, &placed.bounds, light);
-                let bounds = placed.bounds.grown(margin);
-                let holds_eye = bounds.overlaps(&around_eye);
-                let is_open_to_eye =
-                    unseen || placed.masked || (holds_eye && may_touch(casters, placed, mesh, &around_eye));
-                let shows_inside = holds_eye || is_open_to_eye || (light.w != 0.0 && bounds.contains(light.truncate()));
-                let throw = throw(place, light, &mesh.adjacency, end, shows_inside);
-                let may_shadow_eye = segment_touches(view.camera.eye, light, &bounds, margin);
-                let eye_count = match may_shadow_eye || is_open_to_eye {
-                    true if is_open_to_eye => None,
-                    true => before_eye(view, placed, mesh, light).map(|count| weights(&throw, count)),
-                    false => Some([0; 2]),
-                };
-                self.push(throw, eye_count, mesh.triangle_count);
-                let [place, axis] = [anchor, axis].map(|v| v.as_vec3().to_array());
-                self.anchors.push(Anchor { place, axis, ..Anchor::default() });
+                self.add(&scope, place, placed, mesh);
             }
         }
         Ok(())
+    }
+
+    fn add(&mut self, scope: &Scope<'_>, place: u32, placed: &Placed, mesh: &MeshEdges) {
+        let Scope { view, form, .. } = scope;
+        let (anchor, axis) = form.anchor(placed.bounds.center());
+        let light = form.in_world(anchor);
+        let bounds = placed.bounds.grown(scope.rounding);
+        let holds_eye = bounds.overlaps(&scope.around_eye);
+        let is_cut = || holds_eye && may_touch(view.casters, placed, mesh, &scope.around_eye);
+        let is_open_to_eye = scope.unseen || placed.masked || is_cut();
+        let shows_inside = holds_eye || is_open_to_eye || (light.w != 0.0 && bounds.contains(light.truncate()));
+        let end = shadow_end(&scope.seen, &placed.bounds, light);
+        let throw = throw(place, light, &mesh.adjacency, end, shows_inside);
+        let eye_count = if is_open_to_eye {
+            None
+        } else if segment_touches(view.camera.eye, light, &bounds, scope.rounding) {
+            before_eye(view, placed, mesh, light).map(|count| weights(&throw, count))
+        } else {
+            Some([0; 2])
+        };
+        self.push(throw, eye_count, mesh.triangle_count);
+        let [place, axis] = [anchor, axis].map(|v| v.as_vec3().to_array());
+        self.anchors.push(Anchor { place, axis, ..Anchor::default() });
     }
 
     /// What is counted from infinity has its surface drawn, and where its shadow ends.

@@ -16,7 +16,7 @@ use std::ops::Range;
 use tree::{Boxed, TreeNode, append};
 use umbrage_core::glam::{DAffine3, DVec2, Vec3};
 use umbrage_core::sampling::{Luminance, lattice, square_to_disc};
-use umbrage_core::{LightShape, Mesh};
+use umbrage_core::{LightShape, Mesh, Texture};
 
 pub(super) const MASK_SHADER: Shader = Shader {
     name: "samples of a light",
@@ -48,8 +48,8 @@ pub(super) struct Mask {
     meshes: Option<Meshes>,
     light: wgpu::Buffer,
     eye: wgpu::Buffer,
-    /// What half planes were made of, and they.
-    samples: Vec<DVec2>,
+    /// Face, whether it is a point, and picture that half planes were made for, and they.
+    made_for: Option<(Face, bool, Option<Texture>)>,
     half_planes: wgpu::Buffer,
     new_half_planes: Option<Vec<[u32; 4]>>,
     top: Grown,
@@ -118,7 +118,7 @@ impl Mask {
             meshes: None,
             light: gpu.buffer("light", &[super::light::WedgeLight::default()], uniform),
             eye: gpu.buffer("eye", &[Eye::default()], uniform),
-            samples: Vec::new(),
+            made_for: None,
             half_planes: storage(gpu, "half planes", u64::from(TURNS * DISTANCES * words.div_ceil(4)) * 16),
             new_half_planes: None,
             top: Grown::new(gpu, "boxes of casters"),
@@ -143,6 +143,7 @@ impl Mask {
             self.meshes = Some(Meshes::new(gpu, casters));
             self.bind_group = None;
         }
+        self.make_half_planes(view, form);
         let Some(meshes) = &mut self.meshes else { return Ok(()) };
         meshes.pose(casters);
         let eye = view.camera.eye;
@@ -164,11 +165,6 @@ impl Mask {
         }
         self.placed_data.clear();
         self.placed_data.extend(order.iter().map(|i| records[*i as usize]));
-        let samples = samples(view, form, self.words * WORD);
-        if self.samples != samples {
-            self.new_half_planes = Some(half_planes(&samples, reach(form.face)));
-            self.samples = samples;
-        }
         let grown = [
             self.top.fit(gpu, size_of_val(&self.top_data[..]))?,
             self.placed.fit(gpu, size_of_val(&self.placed_data[..]))?,
@@ -192,6 +188,21 @@ impl Mask {
         }
         self.prepare_pipeline(gpu, form.face, view.receivers.has_normals);
         Ok(())
+    }
+
+    /// Only if the light looks otherwise than before. Whether a picture is the same is asked of its pixels, since hosts may change them where they are.
+    fn make_half_planes(&mut self, view: &View<'_>, form: &Form) {
+        let picture = match view.light.shape {
+            LightShape::Rect { texture: Some(index), .. } => view.textures.get(index),
+            _ => None,
+        };
+        let (face, is_point) = (form.face, form.is_point());
+        let is_same = |(f, p, of): &(_, _, Option<Texture>)| (*f, *p, of.as_ref()) == (face, is_point, picture);
+        if !self.made_for.as_ref().is_some_and(is_same) {
+            let samples = samples(picture, form, self.words * WORD);
+            self.new_half_planes = Some(half_planes(&samples, reach(face)));
+            self.made_for = Some((face, is_point, picture.cloned()));
+        }
     }
 
     fn prepare_pipeline(&mut self, gpu: &Gpu, face: Face, has_normals: bool) {
@@ -338,11 +349,8 @@ fn reach(face: Face) -> f64 {
 }
 
 /// Points of the light on its face.
-fn samples(view: &View<'_>, form: &Form, count: u32) -> Vec<DVec2> {
-    let picture = match view.light.shape {
-        LightShape::Rect { texture: Some(index), .. } => view.textures.get(index).and_then(Luminance::of),
-        _ => None,
-    };
+fn samples(picture: Option<&Texture>, form: &Form, count: u32) -> Vec<DVec2> {
+    let picture = picture.and_then(Luminance::of);
     let on_face = |u: DVec2| match form.face {
         _ if form.is_point() => DVec2::ZERO,
         Face::Ball | Face::Disc => square_to_disc(u),
