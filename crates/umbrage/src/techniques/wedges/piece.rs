@@ -120,6 +120,12 @@ impl Piece {
         }
     }
 
+    /// What resolving reads: its share of the light, and the shadows that the eye is in of casters that are not drawn apart.
+    pub fn record(&self) -> [f32; 4] {
+        let [facing, away] = self.eye_counts.first().copied().unwrap_or_default();
+        [self.form.weight as f32, facing as f32, away as f32, 0.0]
+    }
+
     pub fn is_split(&self) -> bool {
         self.form.cell.is_some()
     }

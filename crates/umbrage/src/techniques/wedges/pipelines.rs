@@ -98,7 +98,7 @@ impl Pipelines {
             make_layout: layout(gpu, "make wedges", compute, &[UNIFORM, STORAGE_WRITE, STORAGE_WRITE, STORAGE]),
             caps_layout: layout(gpu, "make caps", compute, &[UNIFORM, STORAGE, STORAGE_WRITE, STORAGE]),
             draw_layout: layout(gpu, "wedges", both, &[UNIFORM, UNIFORM, STORAGE, STORAGE]),
-            resolve_layout: layout(gpu, "covered shares", fragment, &[UNIFORM, UNIFORM, layers, STORAGE, STORAGE]),
+            resolve_layout: layout(gpu, "covered shares", fragment, &[UNIFORM, UNIFORM, layers, UNIFORM]),
             apart_layout: layout(gpu, "a loop's shares", fragment, &[texture(FLOATS), STORAGE]),
             depth_layout: layout(gpu, "depth of wedges", fragment, &[UNIFORM]),
             format,

@@ -4,10 +4,9 @@
 @group(1) @binding(1) var<uniform> eye: Eye;
 // A layer for each piece of the light.
 @group(1) @binding(2) var covered: texture_2d_array<f32>;
-// How many shadows of each piece the eye is in, see `Wedge::weights`.
-@group(1) @binding(3) var<storage, read> eye_count: array<vec2u>;
-// Shares of the light that its pieces are.
-@group(1) @binding(4) var<storage, read> weights: array<f32>;
+// Of each piece its share of the light, and twice how many of its shadows the eye is in, see `Wedge::weights`. Not in storage, which some drivers read
+// pixel by pixel.
+@group(1) @binding(3) var<uniform> pieces: array<vec4f, 9>;
 
 // Of the light.
 override PIECES: u32 = 1u;
@@ -43,14 +42,14 @@ fn below_horizon(p: vec3f, normal: vec3f) -> f32 {
 // What casters cover of a piece, of a place in the buffer of shares.
 fn covered_of(piece: u32, at: vec2i) -> f32 {
     // Both sides of a body cover the same, but for holes.
-    let sides = vec2f(eye_count[piece]) + textureLoad(covered, at, piece, 0).xy;
+    let sides = pieces[piece].yz + textureLoad(covered, at, piece, 0).xy;
     return clamp(max(sides.x, sides.y), 0.0, 1.0);
 }
 
 fn covered_at(at: vec2i) -> f32 {
     var sum = 0.0;
     for (var i = 0u; i < PIECES; i++) {
-        sum += weights[i] * covered_of(i, at);
+        sum += pieces[i].x * covered_of(i, at);
     }
     return sum;
 }

@@ -77,7 +77,7 @@ impl Buffers {
         };
         let cap_chunks = some("chunks of caps", needs.caps, 8, Usage::empty());
         let caps = some("caps", needs.caps, CAPS, Usage::empty());
-        let eye_count = some("shadows of the eye", needs.slots, 8, Usage::COPY_SRC);
+        let eye_count = some("shadows of the eye", needs.slots, 8, Usage::empty());
         let anchors = some("where silhouettes are seen from", needs.anchors, size_of::<Anchor>(), Usage::empty());
         let all = |buffers: &[&wgpu::Buffer], layout| {
             let entries: Vec<_> = buffers.iter().map(|b| b.as_entire_binding()).collect();
@@ -117,21 +117,17 @@ impl Buffers {
 pub(super) struct Whole {
     pub light: wgpu::Buffer,
     pub eye: wgpu::Buffer,
-    /// Shadows of the eye under each piece.
-    pub eye_counts: wgpu::Buffer,
-    /// Shares of the light that pieces are.
-    pub weights: wgpu::Buffer,
+    /// Of each piece, see `Piece::record`.
+    pub pieces: wgpu::Buffer,
 }
 
 impl Whole {
     pub fn new(gpu: &Gpu) -> Self {
         let uniform = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
-        let storage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
         Self {
             light: gpu.buffer("light", &[WedgeLight::default()], uniform),
             eye: gpu.buffer("eye", &[Eye::default()], uniform),
-            eye_counts: gpu.buffer("shadows of the eye", &[0_u32; 2 * MOST_PIECES], storage),
-            weights: gpu.buffer("shares of pieces", &[0_f32; MOST_PIECES], storage),
+            pieces: gpu.buffer("pieces of the light", &[[0_f32; 4]; MOST_PIECES], uniform),
         }
     }
 }
@@ -192,8 +188,7 @@ impl Target {
                 whole.light.as_entire_binding(),
                 whole.eye.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&all),
-                whole.eye_counts.as_entire_binding(),
-                whole.weights.as_entire_binding(),
+                whole.pieces.as_entire_binding(),
             ],
         );
         let pixels = u64::from(size.0) * u64::from(size.1);

@@ -20,6 +20,7 @@ use super::tables::Tables;
 use super::tables::Term;
 use super::targets::Buffers;
 use super::targets::GROUP;
+use super::targets::MOST_PIECES;
 use super::targets::Target;
 use super::targets::TargetKey;
 use super::targets::Whole;
@@ -196,7 +197,6 @@ impl Wedges {
                 draws += copy_depth(passes, view, pipelines, target, buffers);
             }
             draws += piece.add_up(passes, view, i, &recording);
-            passes.encoder().copy_buffer_to_buffer(&buffers.eye_count, 0, &self.whole.eye_counts, 8 * i as u64, 8);
         }
         self.upload(passes, view, form, target);
         let mut pass = passes.render("visibility", &[visibility.overwrite()], None);
@@ -237,10 +237,13 @@ impl Wedges {
     /// What resolving reads.
     fn upload(&self, passes: &mut Passes<'_>, view: &View<'_>, form: &Form, target: &Target) {
         let frame = Frame { rounding: ROUNDING, cap_chunks: 0, scale: target.key.scale };
-        let weights: Vec<f32> = self.pieces.iter().map(|p| p.form.weight as f32).collect();
+        let mut pieces = [[0.0; 4]; MOST_PIECES];
+        for (record, piece) in pieces.iter_mut().zip(&self.pieces) {
+            *record = piece.record();
+        }
         passes.upload(&self.whole.light, bytemuck::bytes_of(&form.uniform(view, &frame)));
         passes.upload(&self.whole.eye, bytemuck::bytes_of(&Eye::new(view)));
-        passes.upload(&self.whole.weights, bytemuck::cast_slice(&weights));
+        passes.upload(&self.whole.pieces, bytemuck::cast_slice(&pieces));
     }
 }
 
