@@ -67,7 +67,7 @@ const Z_FAIL: u32 = 4;
 const LIGHT_CAP: u32 = 8;
 const DARK_CAP: u32 = 16;
 const BODY: u32 = 32;
-const Z_FAIL_TERMS: u32 = 64;
+const COUNT_FROM_INFINITY: u32 = 64;
 
 /// Edges, or triangles, of one caster that go together.
 const CHUNK: u32 = 64;
@@ -365,7 +365,7 @@ fn caster(casters: &Casters, edges: &Edges, throw: &Throw) -> Option<Caster> {
         (throw.light_cap, LIGHT_CAP),
         (throw.dark_cap, DARK_CAP),
         (throw.is_body, BODY),
-        (throw.from_infinity, Z_FAIL_TERMS),
+        (throw.from_infinity, COUNT_FROM_INFINITY),
     ];
     let end = throw.end.truncate();
     Some(Caster {

@@ -42,7 +42,7 @@ const DARK_CAP: u32 = 16u;
 // Its near and its far side count apart.
 const BODY: u32 = 32u;
 // Wedges: the shadow is counted from infinity.
-const Z_FAIL_TERMS: u32 = 64u;
+const COUNT_FROM_INFINITY: u32 = 64u;
 
 const NO_TRIANGLE: u32 = 0x7fffffffu;
 const SAME_DIRECTION: u32 = 0x80000000u;

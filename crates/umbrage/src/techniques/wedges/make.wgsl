@@ -279,7 +279,7 @@ fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     }
     wedge.plane = plane_of(&wedge);
     wedge.eye_inside = f32(0.0 >= wedge.plane.w);
-    wedge.from_infinity = f32((casters[caster].flags & Z_FAIL_TERMS) != 0u);
+    wedge.from_infinity = f32((casters[caster].flags & COUNT_FROM_INFINITY) != 0u);
     let end = casters[caster].end;
     wedge.dark = vec4f(end.xyz, end.w + dot(end.xyz, light.eye_from_origin));
     if !body(a, b, &wedge) {
