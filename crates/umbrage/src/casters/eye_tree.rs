@@ -28,8 +28,14 @@ struct Sight {
 }
 
 /// How many of a caster's triangles lie between the eye and a light's centre, as [`EyeTree::count`]; nor can it be told of meshes that the
-/// GPU alone knows.
-pub(crate) fn before_eye(view: &View<'_>, placed: &Placed, mesh: &MeshEdges, light: DVec4) -> Option<[u32; 2]> {
+/// GPU alone knows. `rounding` is that of the view, metres.
+pub(crate) fn before_eye(
+    view: &View<'_>,
+    placed: &Placed,
+    mesh: &MeshEdges,
+    light: DVec4,
+    rounding: f64,
+) -> Option<[u32; 2]> {
     let to_mesh = &placed.sides.as_ref().filter(|_| !placed.posed)?.mesh_from_world;
     let center = light.truncate();
     let sight = Sight {
@@ -38,7 +44,7 @@ pub(crate) fn before_eye(view: &View<'_>, placed: &Placed, mesh: &MeshEdges, lig
             true => to_mesh.transform_vector3(center).extend(0.0),
             false => to_mesh.transform_point3(center).extend(1.0),
         },
-        tolerance: view.rounding() * largest_stretch(&to_mesh.matrix3),
+        tolerance: rounding * largest_stretch(&to_mesh.matrix3),
     };
     let part = &view.casters.meshes()[placed.mesh as usize].mesh;
     mesh.eye_tree(part).count(part, &mesh.adjacency, &sight)
@@ -65,15 +71,18 @@ impl EyeTree {
     }
 
     /// False where surely no triangle touches the box, which is in mesh space.
-    pub fn may_touch(&self, bounds: &Bounds) -> bool {
+    pub fn may_touch(&self, mesh: &Mesh, adjacency: &Adjacency, bounds: &Bounds) -> bool {
         let mut found = false;
-        if !self.tree.nodes.is_empty() {
-            let aabb = Aabb::new(vector(bounds.min), vector(bounds.max));
-            self.tree.aabb_traverse(aabb, |_, _| {
-                found = true;
-                false
+        self.tree.aabb_traverse(Aabb::new(vector(bounds.min), vector(bounds.max)), |tree, node| {
+            let node = &tree.nodes[node as usize];
+            let first = node.first_index as usize;
+            // Boxes of the tree are larger than triangles.
+            found = tree.primitive_indices[first..first + node.prim_count as usize].iter().any(|&t| {
+                let corners = mesh.corners(adjacency.triangles[t as usize]);
+                Bounds::of(corners.map(|p| p.as_dvec3())).overlaps(bounds)
             });
-        }
+            !found
+        });
         found
     }
 

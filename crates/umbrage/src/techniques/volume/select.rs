@@ -191,7 +191,7 @@ impl Selection {
             return false;
         }
         self.eye_counted += 1;
-        let counted = if s.is_clipped() { None } else { before_eye(s.view, placed, mesh, s.light) };
+        let counted = if s.is_clipped() { None } else { before_eye(s.view, placed, mesh, s.light, s.rounding) };
         self.eye_undecided += u32::from(counted.is_none());
         let [facing, away] = counted.unwrap_or_default();
         self.eye_count += away as i32 + if rule == Rule::All { facing as i32 } else { 0 };

@@ -71,7 +71,8 @@ impl Selection {
         // Segments from the eye to what is seen stay in this box. One plane a caster, so that neighbours share corners.
         let seen = view.seen().with(view.camera.eye);
         let seen = seen.grown(BEHIND * seen.size().length());
-        let (rounding, around_eye) = (view.rounding(), view.around_eye());
+        let rounding = view.rounding();
+        let around_eye = view.around_eye().grown(rounding);
         let scope = Scope { view, form, seen, rounding, around_eye, unseen };
         let lights: Vec<_> = hull.iter().map(|center| casters::Light { center: *center, receivers }).collect();
         for i in 0..self.found.len() {
@@ -103,7 +104,7 @@ impl Selection {
         let eye_count = if is_open_to_eye {
             None
         } else if segment_touches(view.camera.eye, light, &bounds, scope.rounding) {
-            before_eye(view, placed, mesh, light).map(|count| weights(&throw, count))
+            before_eye(view, placed, mesh, light, scope.rounding).map(|count| weights(&throw, count))
         } else {
             Some([0; 2])
         };
@@ -157,7 +158,7 @@ pub(super) fn is_on_a_caster(gpu: &Gpu, view: &View<'_>, light: DVec4) -> Result
 fn may_touch(casters: &Casters, placed: &Placed, mesh: &MeshEdges, bounds: &Bounds) -> bool {
     let (Some(sides), false) = (&placed.sides, placed.posed) else { return true };
     let part = &casters.meshes()[placed.mesh as usize].mesh;
-    mesh.eye_tree(part).may_touch(&bounds.transformed(&sides.mesh_from_world))
+    mesh.eye_tree(part).may_touch(part, &mesh.adjacency, &bounds.transformed(&sides.mesh_from_world))
 }
 
 /// A closed body throws the shadow of its far side: both sides would cover the light twice. Of one with holes, or whose inside is seen, both
