@@ -3,6 +3,7 @@
 //! Any triangles will do: open, non-manifold, doubled, wound this way and that.
 
 mod layers;
+mod order;
 
 use crate::bounds::Bounds;
 use crate::mesh::Mesh;
@@ -48,7 +49,7 @@ pub struct Adjacency {
     pub triangles: Vec<[u32; 3]>,
     /// Which triangle of the mesh each of them is, rising.
     pub numbers: Vec<u32>,
-    /// Every edge of every triangle is in exactly one of them.
+    /// Every edge of every triangle is in exactly one of them. Neighbours in space are mostly neighbours here.
     pub edges: Vec<Edge>,
     /// One a triangle, a unit normal n and an offset w: n · (p − `center`) + w is positive in front. All zero for a
     /// triangle without area. Computed in double precision.
@@ -74,16 +75,18 @@ impl Adjacency {
     /// Looks a mesh over. Any mesh will do, a broken one too.
     pub fn of(mesh: &Mesh) -> Self {
         let (numbers, triangles): (Vec<u32>, Vec<[u32; 3]>) = welded_triangles(mesh).into_iter().unzip();
-        let edges = edges(&triangles);
+        let mut edges = edges(&triangles);
         let position = |i: u32| mesh.positions[i as usize].as_dvec3();
         let corners: Vec<[DVec3; 3]> = triangles.iter().map(|t| t.map(position)).collect();
         let center = Bounds::of(corners.iter().flatten().copied()).center();
+        let layers = layers::count(&corners, &edges, mesh.weights.is_empty());
+        order::sort_by_place(&mut edges, |e| (position(e.vertices[0]) + position(e.vertices[1])) * 0.5);
         let length_squared = |e: &Edge| position(e.vertices[0]).distance_squared(position(e.vertices[1]));
         Self {
             is_closed: edges.iter().all(Edge::is_balanced),
             open_share: edges.iter().filter(|e| !e.is_balanced()).count() as f64 / edges.len().max(1) as f64,
             flatness: flatness(&corners),
-            layers: layers::count(&corners, &edges, mesh.weights.is_empty()),
+            layers,
             longest_edge: edges.iter().map(length_squared).fold(0.0, f64::max).sqrt(),
             planes: planes(&triangles, mesh, center).collect(),
             center,

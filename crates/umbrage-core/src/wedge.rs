@@ -61,25 +61,57 @@ impl Wedge {
             span([from_a, from_b][owner[0]], across, all, light.radius)?
         };
         let normals = [sides[0], sides[1], low, high];
-        let sum: DVec3 = normals.iter().sum();
-        let ray = |end: usize, side: usize| {
-            let ray = normals[2 + end].cross(normals[side]);
-            (ray * ray.dot(sum).signum()).try_normalize()
-        };
-        let far = [[ray(0, 0)?, ray(0, 1)?], [ray(1, 0)?, ray(1, 1)?]];
-        // Seen from next to a wide light three half spaces may do, and edges of the body lie elsewhere.
-        let is_on = |ray: &DVec3| normals.iter().all(|n| n.dot(*ray) > -1e-6);
-        if !far.as_flattened().iter().all(is_on) {
-            return None;
-        }
+        let far = rays(normals)?;
         let planes = normals.map(|n| n.extend(n.dot(a).min(n.dot(b))));
         Some(Self { near: owner.map(|i| ends[i]), far, planes })
+    }
+
+    /// A body around the wedges of several edges, which lie close together where that is worth anything: four half spaces hold
+    /// all ends and all directions away from the light. `None` for no edges, and where no such body holds them.
+    pub fn around(edges: &[[DVec3; 2]], light: &LightHull) -> Option<Self> {
+        let ends = edges.as_flattened();
+        let middle = ends.iter().sum::<DVec3>() / ends.len() as f64;
+        let main = light.away(middle).iter().sum::<DVec3>().try_normalize()?;
+        let across = main.any_orthonormal_vector();
+        let along = main.cross(across);
+        let all: Vec<DVec3> = ends.iter().flat_map(|p| light.away(*p)).collect();
+        let [[front, back], [low, high]] =
+            [span(main, across, &all, light.radius)?, span(main, along, &all, light.radius)?];
+        let plane = |n: DVec3| n.extend(ends.iter().map(|p| n.dot(*p - middle)).fold(0.0, f64::min));
+        let mut planes = [front, back, low, high].map(plane);
+        // Front and back meet in the body's near edge, or else both ends do.
+        let near_low = meet([planes[0], planes[1], planes[2]]);
+        if planes[3].truncate().dot(near_low) < planes[3].w {
+            planes = [planes[2], planes[3], planes[1], planes[0]];
+        }
+        let near = [2, 3].map(|end| middle + meet([planes[0], planes[1], planes[end]]));
+        let planes = planes.map(|p| p.truncate().extend(p.w + p.truncate().dot(middle)));
+        Some(Self { near, far: rays(planes.map(DVec4::truncate))?, planes })
     }
 
     /// How deep inside a point is; negative outside.
     pub fn depth(&self, p: DVec3) -> f64 {
         self.planes.iter().map(|n| n.truncate().dot(p) - n.w).fold(f64::INFINITY, f64::min)
     }
+}
+
+/// Directions of a body's edges: at either end in the front and in the back face. Seen from next to a wide light three half spaces may
+/// do, and edges of the body lie elsewhere: `None`.
+fn rays(normals: [DVec3; 4]) -> Option<[[DVec3; 2]; 2]> {
+    let sum: DVec3 = normals.iter().sum();
+    let ray = |end: usize, side: usize| {
+        let ray = normals[end].cross(normals[side]);
+        (ray * ray.dot(sum).signum()).try_normalize()
+    };
+    let far = [[ray(2, 0)?, ray(2, 1)?], [ray(3, 0)?, ray(3, 1)?]];
+    let is_on = |ray: &DVec3| normals.iter().all(|n| n.dot(*ray) > -1e-6);
+    far.as_flattened().iter().all(is_on).then_some(far)
+}
+
+/// The point in three planes.
+fn meet([a, b, c]: [DVec4; 3]) -> DVec3 {
+    let [m, n, o] = [a, b, c].map(DVec4::truncate);
+    (a.w * n.cross(o) + b.w * o.cross(m) + c.w * m.cross(n)) / m.dot(n.cross(o))
 }
 
 /// Of all n = cos φ `axis` + sin φ `other` with n · d ≥ `radius` for every d, the first and the last.
@@ -175,6 +207,47 @@ mod tests {
             }
         }
 
+        #[test]
+        fn a_body_around_edges_holds_their_wedges(
+            light in lights(),
+            (middle, size) in (point(3.0), -4.0..0.5f64),
+            ends in prop::collection::vec((point(1.0), point(1.0)), 1..5),
+            samples in prop::collection::vec((0..4usize, 0.0..=1.0f64, 0.0..=1.0f64, 0.0..=1.0f64, point(1.0), -3.0..3.0f64), 16),
+        ) {
+            let edges: Vec<_> = ends.iter().map(|(a, b)| [a, b].map(|p| middle + *p * 10_f64.powf(size))).collect();
+            let Some(body) = Wedge::around(&edges, &light) else { return Ok(()) };
+            for (edge, s, u, v, offset, t) in samples {
+                let [a, b] = edges[edge % edges.len()];
+                let x = a.lerp(b, s);
+                let y = of_light(&light, u, v, offset);
+                let away = if light.is_parallel { -y } else { x - y };
+                let p = x + away * 10_f64.powf(t);
+                let depth = body.depth(p);
+                prop_assert!(depth > -1e-9 * (1.0 + p.length()), "{p} is {depth} outside of {body:?}");
+            }
+            // The near edge is where front and back meet, and lies between both ends.
+            for (near, rays) in body.near.iter().zip(&body.far) {
+                let least = body.depth(*near);
+                prop_assert!(least > -1e-6 * (1.0 + near.length()), "{near} is {least} outside of {body:?}");
+                for ray in rays {
+                    prop_assert!(body.planes.iter().all(|p| p.truncate().dot(*ray) > -2e-6), "{ray} leaves {body:?}");
+                }
+            }
+        }
+
+        /// So would a body.
+        #[test]
+        fn a_body_around_far_edges_is_thin(a in point(0.1), b in point(0.1), c in point(0.1)) {
+            let light = LightHull { corners: [DVec3::Y * 100.0; 4], radius: 0.1, is_parallel: false };
+            let body = Wedge::around(&[[a, b], [b, c]], &light).expect("the light is far away");
+            let shadow = (a + b + c) / 3.0 - DVec3::Y * 10.0;
+            prop_assert!(body.depth(shadow) > 0.0);
+            for aside in [DVec3::X, DVec3::NEG_X, DVec3::Z, DVec3::NEG_Z] {
+                prop_assert!(body.depth(shadow + aside * 0.4) < 0.0, "{aside}");
+            }
+            prop_assert!(body.depth(DVec3::Y * 60.0) < 0.0);
+        }
+
         /// A wedge that holds everything would pass the other tests.
         #[test]
         fn a_far_edge_has_a_thin_wedge(a in point(1.0), way in point(1.0)) {
@@ -202,5 +275,7 @@ mod tests {
         assert!(wedge.depth(DVec3::X) < 0.0);
         assert!(Wedge::new(DVec3::Y * 4.8, DVec3::Y, &light).is_none(), "an end lies in the light");
         assert!(Wedge::new(DVec3::Y, DVec3::Y, &light).is_none(), "no length");
+        assert!(Wedge::around(&[], &light).is_none(), "no edges");
+        assert!(Wedge::around(&[[DVec3::Y * 4.8, DVec3::Y]], &light).is_none(), "an end lies in the light");
     }
 }

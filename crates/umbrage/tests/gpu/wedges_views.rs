@@ -3,7 +3,7 @@
 use crate::common::{gpu, pairs};
 use crate::wedges::star;
 use umbrage::core::glam::DVec3;
-use umbrage::core::{Image, LightShape, Scene, Texture};
+use umbrage::core::{Image, LightShape, Scene, Texture, primitive};
 use umbrage::{LightPass, Renderer, find};
 
 /// The picture of `view`, and the visibility beside it.
@@ -105,4 +105,44 @@ fn penumbras_and_corrections_are_where_the_light_is_partly_hidden() {
 
 fn hard() -> Image<f32> {
     picture(&gpu(), &star(LightShape::Point { position: POSITION }), "", None).1
+}
+
+/// The numbers behind colours of `heat` in `inspect.wgsl`, added up.
+fn heat(picture: &Image<[u8; 4]>) -> f64 {
+    let number = |[r, g, ..]: [u8; 4]| {
+        let [r, g] = [r, g].map(|c| f64::from(c) / 255.0);
+        65_f64.powf(if g > 0.0 { (g + 0.55) / 1.9 } else { r / 2.6 }) - 1.0
+    };
+    picture.data.iter().map(|p| number(*p)).sum()
+}
+
+/// A body whose edges are short against its penumbra, against the same where every wedge is drawn by itself.
+#[test]
+fn wedges_close_together_are_drawn_as_one() {
+    let gpu = gpu();
+    let (direction, up) = (DVec3::new(0.2, -1.0, 0.1).normalize(), DVec3::Z);
+    let lights = [
+        LightShape::Sphere { position: POSITION, radius: 0.5 },
+        LightShape::Disc { position: POSITION, direction, radius: 0.5 },
+        LightShape::Rect { position: POSITION, direction, up, size: [1.0, 0.6].into(), texture: None },
+        LightShape::Line { from: POSITION, to: POSITION + DVec3::X },
+        LightShape::Directional { direction, angle_deg: 12.0 },
+    ];
+    for light in lights {
+        let what = format!("{light:?}");
+        let mut scene = star(light);
+        scene.meshes[1] = primitive::sphere(96, 64);
+        // Pieces of a light have narrower penumbras.
+        let sets = [("", "cull=stencil", 0.6), ("split-light=2", "split-light=2,cull=stencil", 0.8)];
+        for (set, one_by_one, share) in sets {
+            let (together, visibility) = picture(&gpu, &scene, set, Some("fragments"));
+            let (each, want) = picture(&gpu, &scene, one_by_one, Some("fragments"));
+            let (together, each) = (heat(&together.unwrap()), heat(&each.unwrap()));
+            let off: f64 = visibility.data.iter().zip(&want.data).map(|(a, b)| f64::from((a - b).abs())).sum();
+            let off = off / want.data.len() as f64;
+            println!("{what} {set}: {together:.0} fragments of {each:.0}, off by {off:.1e}");
+            assert!(together < share * each, "{what} {set}: {together:.0} fragments of {each:.0}");
+            assert!(off < 1e-5, "{what} {set}: {off:.1e}");
+        }
+    }
 }

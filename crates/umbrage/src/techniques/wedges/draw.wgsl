@@ -4,6 +4,9 @@
 @group(1) @binding(1) var<uniform> eye: Eye;
 @group(1) @binding(2) var<storage, read> wedges: array<Wedge>;
 @group(1) @binding(3) var<storage, read> caps: array<Cap>;
+@group(1) @binding(4) var<storage, read> bundles: array<Bundle>;
+// How many single wedges and how many bundles there are; then the numbers of the single ones.
+@group(1) @binding(5) var<storage, read> singles: array<u32>;
 
 const GROUP: u32 = 64u;
 
@@ -149,6 +152,19 @@ fn body(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32)
     return body_at(number, wedges[number].corners[vertex % 6u]);
 }
 
+// The same of a wedge that is in no bundle.
+@vertex
+fn single_body(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32) -> Body {
+    let at = group * GROUP + vertex / 6u;
+    if at >= singles[0] {
+        var out: Body;
+        out.position = NOWHERE;
+        return out;
+    }
+    let number = singles[2u + at];
+    return body_at(number, wedges[number].corners[vertex % 6u]);
+}
+
 // The same of one half, by the instance. They overlap a little, so that no pixel falls between them.
 @vertex
 fn half_body(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Body {
@@ -202,19 +218,108 @@ fn met(in: Body) -> Met {
 }
 
 fn share(in: Body, at: Met) -> f32 {
+    return share_of(in.number, in.start.xyz, in.end.xyz, at.p, at.inside);
+}
+
+fn share_of(number: u32, start: vec3f, end: vec3f, p: vec3f, inside: bool) -> f32 {
     if SPLIT {
-        return share_of_piece(light, at.p, in.start.xyz, in.end.xyz, wedges[in.number].anchor, at.inside);
+        return share_of_piece(light, p, start, end, wedges[number].anchor, inside);
     }
-    return share_of_edge(light, at.p, in.start.xyz, in.end.xyz, at.inside);
+    return share_of_edge(light, p, start, end, inside);
 }
 
 @fragment
 fn add_wedge(in: Body) -> @location(0) vec2f {
-    let at = met(in);
-    if !at.hit {
+    let pixel = full_pixel(light, in.position.xy);
+    let depth = depth_at(pixel);
+    if depth == eye.background_depth {
         discard;
     }
-    return share(in, at) * vec2f(in.start.w, in.end.w);
+    let seen = position_eye(eye, pixel, depth);
+    return added(in.number, in.start, in.end, to_light(light, seen), is_inside(seen, in.plane, in.eye_inside));
+}
+
+// Wedges of a bundle, side by side. What a wedge is, see `Body`.
+struct Bundled {
+    @builtin(position) position: vec4f,
+    @location(0) @interpolate(flat) start_a: vec4f,
+    @location(1) @interpolate(flat) start_b: vec4f,
+    @location(2) @interpolate(flat) start_c: vec4f,
+    @location(3) @interpolate(flat) start_d: vec4f,
+    @location(4) @interpolate(flat) end_a: vec4f,
+    @location(5) @interpolate(flat) end_b: vec4f,
+    @location(6) @interpolate(flat) end_c: vec4f,
+    @location(7) @interpolate(flat) end_d: vec4f,
+    @location(8) @interpolate(flat) plane_a: vec4f,
+    @location(9) @interpolate(flat) plane_b: vec4f,
+    @location(10) @interpolate(flat) plane_c: vec4f,
+    @location(11) @interpolate(flat) plane_d: vec4f,
+    @location(12) @interpolate(flat) eye_inside: vec4f,
+    @location(13) @interpolate(flat) members: vec4u,
+}
+
+@vertex
+fn bundle_body(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32) -> Bundled {
+    let number = group * GROUP + vertex / 6u;
+    var out: Bundled;
+    out.position = NOWHERE;
+    if number >= singles[1] {
+        return out;
+    }
+    out.position = bundles[number].corners[vertex % 6u];
+    if !CLAMPS {
+        out.position.z = 0.5 * out.position.w;
+    }
+    let members = bundles[number].members;
+    out.members = members;
+    out.start_a = start_and_weight(members.x);
+    out.start_b = start_and_weight(members.y);
+    out.start_c = start_and_weight(members.z);
+    out.start_d = start_and_weight(members.w);
+    out.end_a = end_and_weight(members.x);
+    out.end_b = end_and_weight(members.y);
+    out.end_c = end_and_weight(members.z);
+    out.end_d = end_and_weight(members.w);
+    out.plane_a = wedges[members.x].plane;
+    out.plane_b = wedges[members.y].plane;
+    out.plane_c = wedges[members.z].plane;
+    out.plane_d = wedges[members.w].plane;
+    out.eye_inside = vec4f(
+        wedges[members.x].eye_inside,
+        wedges[members.y].eye_inside,
+        wedges[members.z].eye_inside,
+        wedges[members.w].eye_inside,
+    );
+    return out;
+}
+
+fn start_and_weight(number: u32) -> vec4f {
+    return vec4f(wedges[number].start, wedges[number].weights.x);
+}
+
+fn end_and_weight(number: u32) -> vec4f {
+    return vec4f(wedges[number].end, wedges[number].weights.y);
+}
+
+@fragment
+fn add_bundle(in: Bundled) -> @location(0) vec2f {
+    let pixel = full_pixel(light, in.position.xy);
+    let depth = depth_at(pixel);
+    if depth == eye.background_depth {
+        discard;
+    }
+    let seen = position_eye(eye, pixel, depth);
+    let p = to_light(light, seen);
+    var sum = added(in.members.x, in.start_a, in.end_a, p, is_inside(seen, in.plane_a, in.eye_inside.x));
+    sum += added(in.members.y, in.start_b, in.end_b, p, is_inside(seen, in.plane_b, in.eye_inside.y));
+    sum += added(in.members.z, in.start_c, in.end_c, p, is_inside(seen, in.plane_c, in.eye_inside.z));
+    sum += added(in.members.w, in.start_d, in.end_d, p, is_inside(seen, in.plane_d, in.eye_inside.w));
+    return sum;
+}
+
+// What an edge adds.
+fn added(number: u32, start: vec4f, end: vec4f, p: vec3f, inside: bool) -> vec2f {
+    return share_of(number, start.xyz, end.xyz, p, inside) * vec2f(start.w, end.w);
 }
 
 // Marks what is in a body.

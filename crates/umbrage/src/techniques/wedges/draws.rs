@@ -12,6 +12,9 @@ pub(super) enum Draw {
     Caps,
     /// Bodies of wedges.
     Bodies,
+    /// Of wedges that lie close together the bodies around four of them, and those of all others.
+    Bundles,
+    Singles,
     /// The stencil mask of what is seen inside of bodies, and bodies within it.
     Mask,
     MaskedBodies,
@@ -70,6 +73,8 @@ impl Draw {
             Self::Sides => side("add_side", Target::Sum),
             Self::Caps => How::new("cap", "add_cap", Target::Sum),
             Self::Bodies => body("body", "add_wedge", Target::Sum),
+            Self::Bundles => body("bundle_body", "add_bundle", Target::Sum),
+            Self::Singles => body("single_body", "add_wedge", Target::Sum),
             Self::Mask => How { stencil: marks(), shares: false, ..body("body", "mark", Target::Nothing) },
             Self::MaskedBodies => How { stencil: is_marked(), ..body("body", "add_wedge", Target::Sum) },
             Self::FrontMask => How {

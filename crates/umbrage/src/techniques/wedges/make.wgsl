@@ -5,13 +5,12 @@
 @group(1) @binding(4) var<storage, read> instances: array<Instance>;
 @group(2) @binding(0) var<uniform> light: WedgeLight;
 @group(2) @binding(1) var<storage, read_write> wedges: array<Wedge>;
-@group(2) @binding(2) var<storage, read_write> draw: array<u32, 5>;
+@group(2) @binding(2) var<storage, read_write> draw: array<u32, 15>;
 // Of casters, if the light is split.
 @group(2) @binding(3) var<storage, read> anchors: array<Anchor>;
 
-// Wedges that an instance draws, and indices of one.
+// Wedges that an instance draws.
 const GROUP: u32 = 64u;
-const INDICES: u32 = 24u;
 
 // Depth that is behind everything.
 override FAR: f32 = 0.0;
@@ -19,9 +18,6 @@ override FAR: f32 = 0.0;
 override SPLIT: bool = false;
 // Bodies are cut in two.
 override HALVES: bool = false;
-
-// Bodies are larger than wedges by this share, so that rounding cuts nothing off.
-const SLACK: f32 = 1e-3;
 
 fn place(caster: u32, vertex: u32) -> vec3f {
     let at = 3u * vertex;
@@ -58,30 +54,6 @@ fn undivided(wedge: ptr<function, Wedge>) {
     (*wedge).corners[6] = (*wedge).corners[3];
     (*wedge).corners[7] = (*wedge).corners[5];
     (*wedge).front_inside = 2.0;
-}
-
-// Of all n = cos φ axis + sin φ other with n · d ≥ radius for the directions from the light to `ends`, the first and the last φ.
-fn span(axis: vec3f, other: vec3f, ends: array<vec3f, 2>) -> vec2f {
-    var found = vec2f(-10.0, 10.0);
-    for (var i = 0u; i < 8u; i++) {
-        let corner = light.corners[i / 2u].xyz;
-        let d = select(ends[i % 2u] - corner, -corner, light.parallel != 0u);
-        let at = vec2f(dot(d, axis), dot(d, other));
-        let far = length(at);
-        let radius = light.radius * (1.0 + SLACK) + SLACK * 0.01 * far;
-        if !(far > radius) {
-            return vec2f(1.0, -1.0);
-        }
-        let middle = atan2(at.y, at.x);
-        let half = acos(radius / far);
-        found = vec2f(max(found.x, middle - half), min(found.y, middle + half));
-    }
-    return found;
-}
-
-fn ray(end: vec3f, side: vec3f, sum: vec3f) -> vec3f {
-    let r = cross(end, side);
-    return normalize(select(-r, r, dot(r, sum) >= 0.0));
 }
 
 // In light space; false where no such body holds the wedge.
@@ -125,33 +97,23 @@ fn body(a: vec3f, b: vec3f, wedge: ptr<function, Wedge>) -> bool {
     let front = axis * cos(sides.x) + aside * sin(sides.x);
     let back = axis * cos(sides.y) + aside * sin(sides.y);
     let normals = array<vec3f, 4>(front, back, low, high);
-    let sum = front + back + low + high;
-    let rays = array<vec3f, 4>(ray(low, front, sum), ray(low, back, sum), ray(high, front, sum), ray(high, back, sum));
-    for (var i = 0u; i < 4u; i++) {
-        for (var k = 0u; k < 4u; k++) {
-            // Not so if a number is not one.
-            if !(dot(normals[i], rays[k]) > -1e-4) {
-                return false;
-            }
-        }
+    let rays = rays_of(normals);
+    if !lie_within(rays, normals) {
+        return false;
     }
     for (var i = 0u; i < 4u; i++) {
         let least = min(dot(normals[i], a), dot(normals[i], b));
         (*wedge).planes[i] = vec4f(normals[i], least - SLACK * 0.01 * abs(least));
     }
     let starts = array<vec3f, 2>(corner_of(near_low, low + front + back), corner_of(near_high, high + front + back));
-    var ways = rays;
-    for (var i = 0u; i < 4u; i++) {
-        ways[i] = from_light(light, rays[i]);
-    }
+    let ways = ways_of(rays);
     let end = end_of(starts, ways, light.low.xyz, light.high.xyz);
-    for (var i = 0u; i < 4u; i++) {
-        (*wedge).corners[i + 2u] = light.clip_from_eye * run(starts[i / 2u], ways[i], end);
+    let corners = corners_of(starts, ways, end);
+    for (var i = 0u; i < 6u; i++) {
+        (*wedge).corners[i] = corners[i];
     }
-    (*wedge).corners[0] = light.clip_from_eye * vec4f(starts[0], 1.0);
-    (*wedge).corners[1] = light.clip_from_eye * vec4f(starts[1], 1.0);
     if HALVES {
-        halve(wedge, array<vec3f, 2>(low, high), starts, sum, end, rays[0]);
+        halve(wedge, array<vec3f, 2>(low, high), starts, front + back + low + high, end, rays[0]);
     }
     return true;
 }
@@ -193,36 +155,6 @@ fn halve(wedge: ptr<function, Wedge>, across: array<vec3f, 2>, starts: array<vec
     (*wedge).front_inside = f32(dot(normal, front) > 0.0);
 }
 
-// The side of a box where all rays, two from each start, leave it soonest, as n · p = w. Zero where they do not leave it through one side.
-fn end_of(starts: array<vec3f, 2>, ways: array<vec3f, 4>, low: vec3f, high: vec3f) -> vec4f {
-    var best = 1e30;
-    var end = vec4f(0.0);
-    for (var k = 0u; k < 6u; k++) {
-        let axis = k / 2u;
-        let sign = select(-1.0, 1.0, k % 2u == 1u);
-        let bound = select(-low[axis], high[axis], k % 2u == 1u);
-        var last = 0.0;
-        for (var i = 0u; i < 4u; i++) {
-            let speed = sign * ways[i][axis];
-            // Not so steep that rounding moves where a ray meets the side.
-            let is_steep = speed < 1e-3 * length(ways[i]);
-            last = max(last, select((bound - sign * starts[i / 2u][axis]) / speed, 1e30, is_steep));
-        }
-        if last < best {
-            best = last;
-            end = vec4f(0.0, 0.0, 0.0, bound);
-            end[axis] = sign;
-        }
-    }
-    return end;
-}
-
-// A corner from light space to the eye's, moved out by what rounding may move it.
-fn corner_of(p: vec3f, inwards: vec3f) -> vec3f {
-    let out = p - inwards * (light.rounding * (length(p) + 1.0));
-    return from_light(light, out) + light.center;
-}
-
 // Of the sum of both sides of a body, which the list goes by, each one's part.
 fn weights_of(caster: u32, edge: Edge, entry: u32) -> vec2f {
     let times = select(1.0, 2.0, (entry & 2u) != 0u);
@@ -248,7 +180,6 @@ fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let count = list[1];
     let used = (count + GROUP - 1u) / GROUP;
     if number == 0u {
-        draw[0] = GROUP * INDICES;
         draw[1] = used;
     }
     if number >= used * GROUP {

@@ -29,12 +29,19 @@ use umbrage_core::LightKinds;
 const LIGHT: &str = include_str!("light.wgsl");
 const COVERAGE: &str = include_str!("coverage.wgsl");
 const RECORD: &str = include_str!("record.wgsl");
+const BODY: &str = include_str!("body.wgsl");
 const CELL: &str = include_str!("cell.wgsl");
 
 const MAKE_SHADER: Shader = Shader {
     name: "make wedges",
-    parts: &[INSTANCES_WGSL, EDGES_WGSL, LIGHT, RECORD, include_str!("make.wgsl")],
+    parts: &[INSTANCES_WGSL, EDGES_WGSL, LIGHT, RECORD, BODY, include_str!("make.wgsl")],
     layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
+};
+
+const BUNDLE_SHADER: Shader = Shader {
+    name: "bundle wedges",
+    parts: &[LIGHT, RECORD, BODY, include_str!("bundle.wgsl")],
+    layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT],
 };
 
 const CAPS_SHADER: Shader = Shader {
@@ -153,6 +160,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     shaders: &[
         FIND_SHADER,
         MAKE_SHADER,
+        BUNDLE_SHADER,
         CAPS_SHADER,
         DRAW_SHADER,
         APART_SHADER,

@@ -95,6 +95,11 @@ impl Options {
         self.batch != Batch::All || self.combine == Combine::Max
     }
 
+    /// Wedges that lie close together are drawn as one.
+    pub fn bundles(&self) -> bool {
+        !self.listed() && !self.stencil
+    }
+
     /// Loops or casters are drawn into a buffer of their own.
     pub fn apart(&self) -> bool {
         self.batch == Batch::PerLoop || self.combine == Combine::Max
@@ -119,7 +124,7 @@ impl Options {
             (Batch::PerWedge, true) => &[Draw::Sides, Draw::Caps, Draw::FrontMask, Draw::MaskedFront, Draw::MaskedBack],
             (Batch::PerWedge, false) => &[Draw::Sides, Draw::Caps, Draw::Front, Draw::Back],
             (Batch::All, true) => &[Draw::Sides, Draw::Caps, Draw::Mask, Draw::MaskedBodies],
-            (Batch::All, false) => &[Draw::Sides, Draw::Caps, Draw::Bodies],
+            (Batch::All, false) => &[Draw::Sides, Draw::Caps, Draw::Singles, Draw::Bundles],
         }
     }
 

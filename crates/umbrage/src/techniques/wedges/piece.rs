@@ -13,9 +13,11 @@ use super::pipelines::Pipelines;
 use super::select::CHUNK;
 use super::select::Selection;
 use super::tables::Term;
+use super::targets::BUNDLES;
 use super::targets::Buffers;
 use super::targets::GROUP;
 use super::targets::Needs;
+use super::targets::SINGLES;
 use super::targets::Target;
 use crate::casters::Edges;
 use crate::depth_maps::Eye;
@@ -26,6 +28,11 @@ use std::ops::Range;
 
 /// Workgroups in a row, the most that every adapter allows.
 const ROW: u32 = 65_535;
+
+/// Wedges that a thread puts into bundles, see `bundle.wgsl`, and workgroups that do so at most: few edges are silhouettes, so
+/// most of one a window of edges would find nothing to do.
+const WINDOW: u32 = 16;
+const MOST_GROUPS: u32 = 32;
 
 /// A few roundings of single precision.
 pub(super) const ROUNDING: f64 = 1e-6;
@@ -105,6 +112,9 @@ impl Piece {
             self.buffers = Some(Buffers::new(gpu, pipelines, &needs)?);
         }
         pipelines.prepare_making(gpu, self.making(view, options));
+        if options.bundles() {
+            pipelines.prepare_making(gpu, Making::Bundles);
+        }
         pipelines.prepare_making(gpu, Making::Caps { split: self.is_split() });
         Ok(())
     }
@@ -148,7 +158,9 @@ impl Piece {
         passes.upload(&buffers.eye, bytemuck::bytes_of(&Eye::new(view)));
         passes.upload(&buffers.cap_chunks, bytemuck::cast_slice(&self.selection.caps));
         passes.upload(&buffers.eye_count, bytemuck::cast_slice(&self.eye_counts));
-        passes.upload(&buffers.bodies, &[0; 20]);
+        let no_bodies = [GROUP * BODY_INDICES, 0, 0, 0, 0];
+        passes.upload(&buffers.bodies, bytemuck::cast_slice(&[no_bodies; 3]));
+        passes.upload(&buffers.singles, &[0; 8]);
         if self.is_split() {
             passes.upload(&buffers.anchors, bytemuck::cast_slice(&self.selection.anchors));
         }
@@ -162,6 +174,13 @@ impl Piece {
             pass.set_pipeline(making);
             pass.set_bind_group(2, &buffers.make, &[]);
             pass.dispatch_workgroups(groups.min(ROW), groups.div_ceil(ROW), 1);
+        }
+        if let Some(bundling) = r.pipelines.making(Making::Bundles).filter(|_| r.options.bundles()) {
+            pass.set_pipeline(bundling);
+            pass.set_bind_group(0, &buffers.bundle, &[]);
+            let groups = self.silhouettes.room(Part::PassSides).div_ceil(WINDOW * GROUP);
+            pass.dispatch_workgroups(groups.min(MOST_GROUPS), 1, 1);
+            pass.set_bind_group(0, found, &[]);
         }
         let caps = r.pipelines.making(Making::Caps { split: self.is_split() });
         if let Some(caps) = caps.filter(|_| chunks > 0) {
@@ -257,15 +276,15 @@ impl Piece {
         }
         draws += self.caps(pass, view, 0..self.selection.caps.len() as u32, r);
         pass.set_index_buffer(r.body_indices.slice(..), wgpu::IndexFormat::Uint16);
-        let bodies: &[Draw] = match r.options.stencil {
+        let bodies: &[(Draw, u64)] = match r.options.bundles() {
             _ if self.form.is_point() => &[],
-            true => &[Draw::Mask, Draw::MaskedBodies],
-            false => &[Draw::Bodies],
+            true => &[(Draw::Singles, SINGLES), (Draw::Bundles, BUNDLES)],
+            false => &[(Draw::Mask, 0), (Draw::MaskedBodies, 0)],
         };
-        for draw in bodies {
+        for (draw, arguments) in bodies {
             if let Some(pipeline) = r.pipelines.drawing(self.key(view, *draw, r.target)) {
                 pass.set_pipeline(pipeline);
-                pass.draw_indexed_indirect(&buffers.bodies, 0);
+                pass.draw_indexed_indirect(&buffers.bodies, *arguments);
                 draws += 1;
             }
         }

@@ -1,6 +1,7 @@
 //! Pipelines that build, count and draw wedges.
 
 use super::APART_SHADER;
+use super::BUNDLE_SHADER;
 use super::CAPS_SHADER;
 use super::DEPTH_SHADER;
 use super::MAKE_SHADER;
@@ -10,12 +11,14 @@ use super::tables::Term;
 use crate::casters::Edges;
 use crate::fullscreen::{FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, layout, texture};
 use crate::receivers::Receivers;
+use crate::shader::Shader;
 use crate::{gpu::Gpu, visibility::VisibilityTarget};
 
 /// Made once.
 pub(super) struct Pipelines {
     pub make_layout: wgpu::BindGroupLayout,
     pub caps_layout: wgpu::BindGroupLayout,
+    pub bundle_layout: wgpu::BindGroupLayout,
     pub draw_layout: wgpu::BindGroupLayout,
     pub resolve_layout: wgpu::BindGroupLayout,
     pub apart_layout: wgpu::BindGroupLayout,
@@ -49,6 +52,8 @@ pub(super) enum Making {
         split: bool,
         halves: bool,
     },
+    /// Puts wedges together that are drawn as one.
+    Bundles,
     /// Makes the caps of what is counted from infinity.
     Caps { split: bool },
 }
@@ -97,7 +102,13 @@ impl Pipelines {
         Self {
             make_layout: layout(gpu, "make wedges", compute, &[UNIFORM, STORAGE_WRITE, STORAGE_WRITE, STORAGE]),
             caps_layout: layout(gpu, "make caps", compute, &[UNIFORM, STORAGE, STORAGE_WRITE, STORAGE]),
-            draw_layout: layout(gpu, "wedges", both, &[UNIFORM, UNIFORM, STORAGE, STORAGE]),
+            bundle_layout: layout(
+                gpu,
+                "bundle wedges",
+                compute,
+                &[UNIFORM, STORAGE, STORAGE_WRITE, STORAGE_WRITE, STORAGE_WRITE],
+            ),
+            draw_layout: layout(gpu, "wedges", both, &[UNIFORM, UNIFORM, STORAGE, STORAGE, STORAGE, STORAGE]),
             resolve_layout: layout(gpu, "covered shares", fragment, &[UNIFORM, UNIFORM, layers, UNIFORM]),
             apart_layout: layout(gpu, "a loop's shares", fragment, &[texture(FLOATS), STORAGE]),
             depth_layout: layout(gpu, "depth of wedges", fragment, &[UNIFORM]),
@@ -121,11 +132,12 @@ impl Pipelines {
             Making::Wedges { reversed, split, halves } => {
                 let far = if reversed { 0.0 } else { 1.0 };
                 let constants = [("FAR", far), ("SPLIT", on(split)), ("HALVES", on(halves))];
-                self.compute(gpu, &MAKE_SHADER.module(gpu), "make", &self.make_layout, &constants)
+                self.of_casters(gpu, &MAKE_SHADER, &self.make_layout, &constants)
             }
+            Making::Bundles => compute(gpu, &BUNDLE_SHADER, &[Some(&self.bundle_layout)], &[]),
             Making::Caps { split } => {
                 let constants = [("SPLIT", on(split))];
-                self.compute(gpu, &CAPS_SHADER.module(gpu), "make", &self.caps_layout, &constants)
+                self.of_casters(gpu, &CAPS_SHADER, &self.caps_layout, &constants)
             }
         };
         self.making.push((key, made));
@@ -228,27 +240,35 @@ impl Pipelines {
         stages.pipeline(gpu, &[&self.apart_layout], None, Some(how.target(self)))
     }
 
-    fn compute(
+    /// What reads silhouettes.
+    fn of_casters(
         &self,
         gpu: &Gpu,
-        module: &wgpu::ShaderModule,
-        entry: &str,
+        shader: &Shader,
         own: &wgpu::BindGroupLayout,
         constants: &[(&str, f64)],
     ) -> wgpu::ComputePipeline {
-        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &[Some(&self.silhouettes), Some(&Edges::draw_layout(gpu)), Some(own)],
-            ..Default::default()
-        });
-        gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(entry),
-            layout: Some(&layout),
-            module,
-            entry_point: Some(entry),
-            compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
-            cache: None,
-        })
+        compute(gpu, shader, &[Some(&self.silhouettes), Some(&Edges::draw_layout(gpu)), Some(own)], constants)
     }
+}
+
+fn compute(
+    gpu: &Gpu,
+    shader: &Shader,
+    groups: &[Option<&wgpu::BindGroupLayout>],
+    constants: &[(&str, f64)],
+) -> wgpu::ComputePipeline {
+    let layout = gpu
+        .device
+        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { bind_group_layouts: groups, ..Default::default() });
+    gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(shader.name),
+        layout: Some(&layout),
+        module: &shader.module(gpu),
+        entry_point: Some("make"),
+        compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
+        cache: None,
+    })
 }
 
 /// What is behind all of a body is in no wedge.

@@ -30,6 +30,16 @@ struct Wedge {
     anchor: Anchor,
 }
 
+// Wedges in one bundle, which are drawn as one.
+const BUNDLE: u32 = 4u;
+
+struct Bundle {
+    // Of the body around them all, as those of a wedge.
+    corners: array<vec4f, 6>,
+    // Its wedges.
+    members: vec4u,
+}
+
 // A triangle of a caster that is counted from infinity.
 struct Cap {
     // Corners relative to the eye, counter-clockwise seen from the light, and their shadows, homogeneous.

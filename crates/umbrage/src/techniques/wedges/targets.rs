@@ -12,6 +12,14 @@ use crate::{error::Error, gpu::Gpu, receivers::Receivers, view::View};
 /// Bytes of a record, see `record.wgsl`.
 const RECORD: u64 = 352;
 
+/// Where in [`Buffers::bodies`] the arguments of the draws of single wedges and of bundles are.
+pub(super) const SINGLES: u64 = 20;
+pub(super) const BUNDLES: u64 = 40;
+
+/// Wedges in a bundle, and bytes of its record.
+const BUNDLE: u64 = 4;
+const BUNDLE_RECORD: u64 = 112;
+
 /// Bytes of the caps of a chunk, see `record.wgsl`.
 const CAPS: usize = 128 * CHUNK as usize;
 
@@ -35,13 +43,16 @@ pub(super) struct Buffers {
     pub light: wgpu::Buffer,
     pub eye: wgpu::Buffer,
     pub wedges: wgpu::Buffer,
-    /// Arguments of the draw of all bodies.
+    /// Arguments of the draws of all bodies, of single ones and of bundles.
     pub bodies: wgpu::Buffer,
+    bundles: wgpu::Buffer,
+    pub singles: wgpu::Buffer,
     pub cap_chunks: wgpu::Buffer,
     pub caps: wgpu::Buffer,
     pub eye_count: wgpu::Buffer,
     pub anchors: wgpu::Buffer,
     pub make: wgpu::BindGroup,
+    pub bundle: wgpu::BindGroup,
     pub make_caps: wgpu::BindGroup,
     pub draw: wgpu::BindGroup,
     pub depth: wgpu::BindGroup,
@@ -71,7 +82,10 @@ impl Buffers {
         let eye = buffer("eye", size_of::<Eye>() as u64, Usage::UNIFORM);
         // Half as much again, so that a moving camera does not make it grow all the time.
         let wedges = buffer("wedges", (size + size / 2).clamp(RECORD * 64, limit).next_multiple_of(16), Usage::STORAGE);
-        let bodies = buffer("draw of wedges", 20, Usage::STORAGE | Usage::INDIRECT);
+        let room = wedges.size() / RECORD;
+        let bodies = buffer("draws of wedges", 60, Usage::STORAGE | Usage::INDIRECT);
+        let bundles = buffer("bundles", (room / BUNDLE).max(1) * BUNDLE_RECORD, Usage::STORAGE);
+        let singles = buffer("single wedges", 4 * (2 + room), Usage::STORAGE);
         let some = |label, number: u32, bytes: usize, usage| {
             buffer(label, u64::from(number.max(1).next_power_of_two()) * bytes as u64, Usage::STORAGE | usage)
         };
@@ -86,12 +100,15 @@ impl Buffers {
         Ok(Self {
             make: all(&[&light, &wedges, &bodies, &anchors], &pipelines.make_layout),
             make_caps: all(&[&light, &cap_chunks, &caps, &anchors], &pipelines.caps_layout),
-            draw: all(&[&light, &eye, &wedges, &caps], &pipelines.draw_layout),
+            bundle: all(&[&light, &wedges, &bodies, &bundles, &singles], &pipelines.bundle_layout),
+            draw: all(&[&light, &eye, &wedges, &caps, &bundles, &singles], &pipelines.draw_layout),
             depth: all(&[&light], &pipelines.depth_layout),
             light,
             eye,
             wedges,
             bodies,
+            bundles,
+            singles,
             cap_chunks,
             caps,
             eye_count,
@@ -109,7 +126,7 @@ impl Buffers {
 
     pub fn bytes(&self) -> u64 {
         let small = [&self.light, &self.eye, &self.bodies, &self.cap_chunks, &self.eye_count, &self.anchors];
-        small.into_iter().chain([&self.wedges, &self.caps]).map(|b| b.size()).sum()
+        small.into_iter().chain([&self.wedges, &self.caps, &self.bundles, &self.singles]).map(|b| b.size()).sum()
     }
 }
 

@@ -228,6 +228,7 @@ impl Wedges {
             pieces: self.pieces.iter().filter_map(|p| p.buffers.as_ref()).collect(),
             indices: &self.body_indices,
             key: Key { depth: compared_depth(view), ..piece.key(view, Draw::Bodies, target) },
+            bundles: self.options.bundles(),
             tables: self.tables.group(piece.term),
             layout: &self.pipelines.as_ref()?.draw_layout,
             shares: (resolve, &target.resolve, &self.pipelines.as_ref()?.resolve_layout),

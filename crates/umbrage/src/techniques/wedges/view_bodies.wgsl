@@ -1,4 +1,4 @@
-// Fragments of bodies for pictures of wedges. After `draw.wgsl`, whose `body` and `add_wedge` they share.
+// Fragments of bodies for pictures of wedges. After `draw.wgsl`, whose bodies they share.
 
 // Fronts in the first channel, backs in the second.
 @fragment
@@ -11,10 +11,15 @@ fn line() -> @location(0) vec4f {
     return vec4f(1.0, 0.0, 0.0, 0.0);
 }
 
-// Wedges that the point is in, and fragments that ask.
+// Wedges that the point is in.
 @fragment
 fn count(in: Body) -> @location(0) vec2f {
-    return vec2f(f32(met(in).hit), 1.0);
+    return vec2f(f32(met(in).hit), 0.0);
+}
+
+@fragment
+fn fragment() -> @location(0) vec2f {
+    return vec2f(1.0, 0.0);
 }
 
 // Edges that cross the light, with the point on the side of the shadow and on the other one.

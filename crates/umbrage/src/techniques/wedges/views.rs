@@ -9,7 +9,7 @@ use super::light::WedgeLight;
 use super::pipelines::Key;
 use super::pipelines::Resolve;
 use super::pipelines::compare;
-use super::targets::{Buffers, GROUP, lent_depth};
+use super::targets::{BUNDLES, Buffers, GROUP, SINGLES, lent_depth};
 use crate::depth_maps::Eye;
 use crate::fullscreen::{FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout, target_texture, texture};
 use crate::shader::{FULLSCREEN, INSPECT, RECEIVERS, Shader};
@@ -47,6 +47,10 @@ const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// Of the six corners of a body the ends of its edges, and nothing thrice, so that arguments of the draw of bodies hold for lines, too.
 const LINES: [u16; 24] = [0, 1, 0, 2, 0, 3, 1, 4, 1, 5, 2, 3, 4, 5, 2, 4, 3, 5, 0, 0, 0, 0, 0, 0];
 
+/// Vertex shaders of bodies and where the arguments of their draws are.
+const ONE_BY_ONE: &[(&str, u64)] = &[("body", 0)];
+const AS_DRAWN: &[(&str, u64)] = &[("single_body", SINGLES), ("bundle_body", BUNDLES)];
+
 /// One of the pictures, drawn every frame after visibility.
 pub(super) struct Views {
     gpu: Gpu,
@@ -55,7 +59,8 @@ pub(super) struct Views {
     eye: wgpu::Buffer,
     lines: wgpu::Buffer,
     base: Option<(bool, wgpu::RenderPipeline)>,
-    bodies: Option<(Key, wgpu::RenderPipeline)>,
+    /// With where the arguments of their draws are.
+    bodies: Option<(Key, Vec<(wgpu::RenderPipeline, u64)>)>,
     /// Shares of each piece of the light.
     mosaic: Option<(Resolve, wgpu::RenderPipeline)>,
     targets: Option<Targets>,
@@ -75,6 +80,8 @@ pub(super) struct Drawn<'a> {
     pub indices: &'a wgpu::Buffer,
     /// Of bodies.
     pub key: Key,
+    /// Wedges that lie close together are drawn as one.
+    pub bundles: bool,
     pub tables: &'a wgpu::BindGroup,
     /// Of group 1.
     pub layout: &'a wgpu::BindGroupLayout,
@@ -126,15 +133,17 @@ impl Views {
         }
         let (Some(targets), Some((_, base))) = (&self.targets, &self.base) else { return };
         passes.upload(&self.eye, bytemuck::bytes_of(&Eye::new(view)));
-        let bodies = drawn.zip(self.bodies.as_ref().map(|(_, pipeline)| pipeline));
+        let bodies = drawn.zip(self.bodies.as_ref().map(|(_, pipelines)| pipelines));
         {
             let depth = self.depth_compare(true).and_then(|_| lent_depth(view.receivers));
             let depth =
                 depth.map(|view| wgpu::RenderPassDepthStencilAttachment { view, depth_ops: None, stencil_ops: None });
             let pass = &mut passes.render("view numbers", &[clear(&targets.numbers)], depth);
-            if let Some((drawn, pipeline)) = bodies {
+            if let Some((drawn, pipelines)) = bodies {
                 let indices = if self.name == "wireframe" { &self.lines } else { drawn.indices };
-                drawn.draw(pass, view.receivers, pipeline, indices);
+                for (pipeline, arguments) in pipelines {
+                    drawn.draw(pass, view.receivers, pipeline, *arguments, indices);
+                }
             }
         }
         let resources = [
@@ -182,7 +191,9 @@ impl Views {
         if let Some(drawn) = drawn.filter(|_| self.name == "pieces") {
             self.prepare_mosaic(drawn);
         } else if let Some(drawn) = drawn.filter(|d| self.bodies.as_ref().is_none_or(|(key, _)| *key != d.key)) {
-            self.bodies = Some((drawn.key, self.bodies(drawn)));
+            let draws = if drawn.bundles && self.name == "fragments" { AS_DRAWN } else { ONE_BY_ONE };
+            let made = draws.iter().map(|(vertex, arguments)| (self.bodies(drawn, vertex), *arguments));
+            self.bodies = Some((drawn.key, made.collect()));
         }
     }
 
@@ -214,11 +225,12 @@ impl Views {
             "wedges" => "tint",
             "penumbra" => "crossing",
             "correction" => "add_wedge",
+            "fragments" => "fragment",
             _ => "count",
         }
     }
 
-    fn bodies(&self, drawn: &Drawn<'_>) -> wgpu::RenderPipeline {
+    fn bodies(&self, drawn: &Drawn<'_>, vertex: &str) -> wgpu::RenderPipeline {
         let (gpu, key, entry) = (&self.gpu, drawn.key, self.entry());
         let shader = if entry == "add_wedge" { key.term.draw_shader() } else { BODIES_SHADER };
         let module = &shader.module(gpu);
@@ -238,7 +250,7 @@ impl Views {
             layout: Some(&gpu.device.create_pipeline_layout(&groups)),
             vertex: wgpu::VertexState {
                 module,
-                entry_point: Some("body"),
+                entry_point: Some(vertex),
                 compilation_options: wgpu::PipelineCompilationOptions {
                     constants: &[("CLAMPS", f64::from(u8::from(clamps)))],
                     ..Default::default()
@@ -277,6 +289,7 @@ impl Drawn<'_> {
         pass: &mut wgpu::RenderPass<'_>,
         receivers: &Receivers,
         pipeline: &wgpu::RenderPipeline,
+        arguments: u64,
         indices: &wgpu::Buffer,
     ) {
         pass.set_pipeline(pipeline);
@@ -285,7 +298,7 @@ impl Drawn<'_> {
         pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint16);
         for piece in &self.pieces {
             pass.set_bind_group(1, &piece.draw, &[]);
-            pass.draw_indexed_indirect(&piece.bodies, 0);
+            pass.draw_indexed_indirect(&piece.bodies, arguments);
         }
     }
 }

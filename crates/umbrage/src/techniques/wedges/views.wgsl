@@ -50,7 +50,7 @@ fn overdraw(@builtin(position) at: vec4f) -> @location(0) vec4f {
 
 @fragment
 fn fragments(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    return heated(numbers_at(at).y);
+    return heated(numbers_at(at).x);
 }
 
 // White is nothing, red half of the light taken, blue half of it added; grey where nothing is seen.
