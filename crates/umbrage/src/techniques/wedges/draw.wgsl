@@ -218,25 +218,24 @@ fn met(in: Body) -> Met {
 }
 
 fn share(in: Body, at: Met) -> f32 {
-    return share_of(in.number, in.start.xyz, in.end.xyz, at.p, at.inside);
-}
-
-fn share_of(number: u32, start: vec3f, end: vec3f, p: vec3f, inside: bool) -> f32 {
     if SPLIT {
-        return share_of_piece(light, p, start, end, wedges[number].anchor, inside);
+        return share_of_piece(light, at.p, in.start.xyz, in.end.xyz, wedges[in.number].anchor, at.inside);
     }
-    return share_of_edge(light, p, start, end, inside);
+    return share_of_edge(light, at.p, in.start.xyz, in.end.xyz, at.inside);
 }
 
+// Away from the body an edge crosses no light, so only the dear shares of pieces ask first.
 @fragment
 fn add_wedge(in: Body) -> @location(0) vec2f {
     let pixel = full_pixel(light, in.position.xy);
     let depth = depth_at(pixel);
-    if depth == eye.background_depth {
+    let seen = position_eye(eye, pixel, depth);
+    let p = to_light(light, seen);
+    if depth == eye.background_depth || (SPLIT && !is_in_body(in, p)) {
         discard;
     }
-    let seen = position_eye(eye, pixel, depth);
-    return added(in.number, in.start, in.end, to_light(light, seen), is_inside(seen, in.plane, in.eye_inside));
+    let at = Met(p, is_inside(seen, in.plane, in.eye_inside), true);
+    return share(in, at) * vec2f(in.start.w, in.end.w);
 }
 
 // Wedges of a bundle, side by side. What a wedge is, see `Body`.
@@ -255,7 +254,6 @@ struct Bundled {
     @location(10) @interpolate(flat) plane_c: vec4f,
     @location(11) @interpolate(flat) plane_d: vec4f,
     @location(12) @interpolate(flat) eye_inside: vec4f,
-    @location(13) @interpolate(flat) members: vec4u,
 }
 
 @vertex
@@ -271,7 +269,6 @@ fn bundle_body(@builtin(vertex_index) vertex: u32, @builtin(instance_index) grou
         out.position.z = 0.5 * out.position.w;
     }
     let members = bundles[number].members;
-    out.members = members;
     out.start_a = start_and_weight(members.x);
     out.start_b = start_and_weight(members.y);
     out.start_c = start_and_weight(members.z);
@@ -310,16 +307,14 @@ fn add_bundle(in: Bundled) -> @location(0) vec2f {
     }
     let seen = position_eye(eye, pixel, depth);
     let p = to_light(light, seen);
-    var sum = added(in.members.x, in.start_a, in.end_a, p, is_inside(seen, in.plane_a, in.eye_inside.x));
-    sum += added(in.members.y, in.start_b, in.end_b, p, is_inside(seen, in.plane_b, in.eye_inside.y));
-    sum += added(in.members.z, in.start_c, in.end_c, p, is_inside(seen, in.plane_c, in.eye_inside.z));
-    sum += added(in.members.w, in.start_d, in.end_d, p, is_inside(seen, in.plane_d, in.eye_inside.w));
-    return sum;
+    return added(in.start_a, in.end_a, p, is_inside(seen, in.plane_a, in.eye_inside.x))
+        + added(in.start_b, in.end_b, p, is_inside(seen, in.plane_b, in.eye_inside.y))
+        + added(in.start_c, in.end_c, p, is_inside(seen, in.plane_c, in.eye_inside.z))
+        + added(in.start_d, in.end_d, p, is_inside(seen, in.plane_d, in.eye_inside.w));
 }
 
-// What an edge adds.
-fn added(number: u32, start: vec4f, end: vec4f, p: vec3f, inside: bool) -> vec2f {
-    return share_of(number, start.xyz, end.xyz, p, inside) * vec2f(start.w, end.w);
+fn added(start: vec4f, end: vec4f, p: vec3f, inside: bool) -> vec2f {
+    return share_of_edge(light, p, start.xyz, end.xyz, inside) * vec2f(start.w, end.w);
 }
 
 // Marks what is in a body.

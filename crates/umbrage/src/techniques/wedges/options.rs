@@ -95,9 +95,9 @@ impl Options {
         self.batch != Batch::All || self.combine == Combine::Max
     }
 
-    /// Wedges that lie close together are drawn as one.
+    /// Wedges that lie close together are drawn as one. Shares of pieces are dear, and each wedge by itself has fewer to find.
     pub fn bundles(&self) -> bool {
-        !self.listed() && !self.stencil
+        !self.listed() && !self.stencil && self.split == 1
     }
 
     /// Loops or casters are drawn into a buffer of their own.
@@ -124,7 +124,8 @@ impl Options {
             (Batch::PerWedge, true) => &[Draw::Sides, Draw::Caps, Draw::FrontMask, Draw::MaskedFront, Draw::MaskedBack],
             (Batch::PerWedge, false) => &[Draw::Sides, Draw::Caps, Draw::Front, Draw::Back],
             (Batch::All, true) => &[Draw::Sides, Draw::Caps, Draw::Mask, Draw::MaskedBodies],
-            (Batch::All, false) => &[Draw::Sides, Draw::Caps, Draw::Singles, Draw::Bundles],
+            _ if self.bundles() => &[Draw::Sides, Draw::Caps, Draw::Singles, Draw::Bundles],
+            (Batch::All, false) => &[Draw::Sides, Draw::Caps, Draw::Bodies],
         }
     }
 

@@ -276,10 +276,11 @@ impl Piece {
         }
         draws += self.caps(pass, view, 0..self.selection.caps.len() as u32, r);
         pass.set_index_buffer(r.body_indices.slice(..), wgpu::IndexFormat::Uint16);
-        let bodies: &[(Draw, u64)] = match r.options.bundles() {
+        let bodies: &[(Draw, u64)] = match r.options.stencil {
             _ if self.form.is_point() => &[],
-            true => &[(Draw::Singles, SINGLES), (Draw::Bundles, BUNDLES)],
-            false => &[(Draw::Mask, 0), (Draw::MaskedBodies, 0)],
+            _ if r.options.bundles() => &[(Draw::Singles, SINGLES), (Draw::Bundles, BUNDLES)],
+            true => &[(Draw::Mask, 0), (Draw::MaskedBodies, 0)],
+            false => &[(Draw::Bodies, 0)],
         };
         for (draw, arguments) in bodies {
             if let Some(pipeline) = r.pipelines.drawing(self.key(view, *draw, r.target)) {
