@@ -175,7 +175,8 @@ impl Piece {
             pass.set_bind_group(2, &buffers.make, &[]);
             pass.dispatch_workgroups(groups.min(ROW), groups.div_ceil(ROW), 1);
         }
-        if let Some(bundling) = r.pipelines.making(Making::Bundles).filter(|_| r.options.bundles()) {
+        let is_bundled = r.options.bundles() && !self.form.is_point();
+        if let Some(bundling) = r.pipelines.making(Making::Bundles).filter(|_| is_bundled) {
             pass.set_pipeline(bundling);
             pass.set_bind_group(0, &buffers.bundle, &[]);
             let groups = self.silhouettes.room(Part::PassSides).div_ceil(WINDOW * GROUP);
