@@ -2,6 +2,7 @@
 
 use super::phases::{OpenPixels, Phase};
 use super::uniforms::MapLookup;
+use super::views::Blend;
 use super::{DepthMaps, Layers};
 use crate::{
     fullscreen::{Fullscreen, UNIFORM, bind, layout},
@@ -22,10 +23,12 @@ pub(crate) struct Lookup {
     layout: wgpu::BindGroupLayout,
     /// Layout of what the technique binds besides, as group 2.
     more: Option<wgpu::BindGroupLayout>,
-    /// One for each phase; one alone where there are no phases.
-    pipelines: Vec<(Variant, Vec<wgpu::RenderPipeline>)>,
-    /// For a technique with a quick phase.
-    open: Option<OpenPixels>,
+    pipelines: Vec<(Variant, Draws)>,
+    /// Splits give way to the next one by mixing both.
+    mixes: bool,
+    /// The shader has a `quick_share`, see `wgsl/map_quick.wgsl`.
+    is_quick: bool,
+    open: OpenPixels,
     uniforms: wgpu::Buffer,
     data: MapLookup,
     sampler: wgpu::Sampler,
@@ -33,7 +36,10 @@ pub(crate) struct Lookup {
     current: Option<usize>,
 }
 
-/// What a pipeline is made for.
+/// The draws of a look-up, in order.
+type Draws = Vec<(Phase, wgpu::RenderPipeline)>;
+
+/// What pipelines are made for.
 #[derive(Clone, Copy, PartialEq)]
 struct Variant {
     /// The light is a ball of some kind, which turns the same side to all.
@@ -43,6 +49,8 @@ struct Variant {
     layout: Layers,
     linear: bool,
     has_normals: bool,
+    /// Splits stand still.
+    steady: bool,
 }
 
 impl Lookup {
@@ -50,17 +58,20 @@ impl Lookup {
         gpu: &Gpu,
         shader: &Shader,
         bias: f64,
-        constants: Vec<(&'static str, f64)>,
+        blend: Blend,
+        constants: &[(&'static str, f64)],
         more: Option<wgpu::BindGroupLayout>,
     ) -> Self {
         Self {
             module: shader.module(gpu),
-            constants,
+            constants: [constants, &[("BLEND", blend.number())]].concat(),
             bias,
             layout: lookup_layout(gpu),
             more,
             pipelines: Vec::new(),
-            open: None,
+            mixes: blend == Blend::Lerp,
+            is_quick: false,
+            open: OpenPixels::default(),
             uniforms: gpu.buffer(
                 "map lookup",
                 &[MapLookup::default()],
@@ -81,7 +92,7 @@ impl Lookup {
 
     /// Looks up in two phases; the shader has a `quick_share`, see `wgsl/map_quick.wgsl`.
     pub(super) fn in_phases(&mut self) {
-        self.open = Some(OpenPixels::default());
+        self.is_quick = true;
     }
 
     pub(crate) fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &DepthMaps) {
@@ -93,14 +104,15 @@ impl Lookup {
         let round = matches!(view.light.shape, LightShape::Sphere { .. } | LightShape::Ellipsoid { .. });
         let has_normals = view.receivers.has_normals;
         let warped = maps.is_warped();
-        let variant = Variant { round, perspective, warped, layout: maps.layout, linear, has_normals };
+        let steady = maps.views.iter().any(|v| v.steady_border.is_some());
+        let variant = Variant { round, perspective, warped, layout: maps.layout, linear, has_normals, steady };
         let known = self.pipelines.iter().position(|(v, _)| *v == variant);
         self.current = Some(known.unwrap_or_else(|| {
-            self.pipelines.push((variant, self.pipelines_of(gpu, variant)));
+            self.pipelines.push((variant, self.draws_of(gpu, variant)));
             self.pipelines.len() - 1
         }));
-        if let Some(open) = &mut self.open {
-            open.prepare(gpu, view.receivers.size);
+        if self.phases(variant.layout).len() > 1 {
+            self.open.prepare(gpu, view.receivers.size);
         }
         if self.bind_group.as_ref().is_none_or(|(t, _)| t != textures.result()) {
             self.bind_group = Some((textures.result().clone(), self.bind(gpu, textures.result())));
@@ -117,48 +129,57 @@ impl Lookup {
         passes.upload(&self.uniforms, bytemuck::bytes_of(&self.data));
     }
 
-    /// Writes 1 everywhere where there is nothing to look up. `more` is what the technique binds as group 2.
+    /// Writes 1 everywhere where there is nothing to look up. `more` is what the technique binds as group 2. Returns the number of draws.
     pub(crate) fn record(
         &self,
         passes: &mut Passes<'_>,
         receivers: &Receivers,
         more: Option<&wgpu::BindGroup>,
         visibility: &VisibilityTarget,
-    ) {
-        let open = self.open.as_ref().filter(|_| self.current.is_some()).and_then(OpenPixels::attachment);
+    ) -> u32 {
+        let draws = self.current.map_or(&[][..], |current| &self.pipelines[current].1);
+        let open = if draws.len() > 1 { self.open.attachment() } else { None };
         let mut pass = passes.render("visibility", &[visibility.overwrite()], open);
-        if let (Some(current), Some((_, bind_group))) = (self.current, &self.bind_group) {
+        if let Some((_, bind_group)) = &self.bind_group {
             pass.set_bind_group(0, &receivers.bind_group, &[]);
             pass.set_bind_group(1, bind_group, &[]);
             if more.is_some() {
                 pass.set_bind_group(2, more, &[]);
             }
-            for (pipeline, phase) in self.pipelines[current].1.iter().zip(Phase::BOTH) {
+            for (phase, pipeline) in draws {
                 pass.set_pipeline(pipeline);
                 pass.set_stencil_reference(phase.reference());
                 pass.draw(0..3, 0..1);
             }
         }
+        draws.len() as u32
     }
 
     pub(crate) fn bytes(&self) -> u64 {
-        self.uniforms.size() + self.open.as_ref().map_or(0, OpenPixels::bytes)
+        self.uniforms.size() + self.open.bytes()
     }
 
-    fn pipelines_of(&self, gpu: &Gpu, variant: Variant) -> Vec<wgpu::RenderPipeline> {
-        match self.open {
-            Some(_) => Phase::BOTH.map(|phase| self.pipeline(gpu, variant, Some(phase))).into(),
-            None => vec![self.pipeline(gpu, variant, None)],
+    fn draws_of(&self, gpu: &Gpu, variant: Variant) -> Draws {
+        self.phases(variant.layout).iter().map(|phase| (*phase, self.pipeline(gpu, variant, *phase))).collect()
+    }
+
+    fn phases(&self, layout: Layers) -> &'static [Phase] {
+        match layout {
+            _ if self.is_quick => &[Phase::Quick, Phase::Rest],
+            Layers::Splits(2..) if self.mixes => &[Phase::Unmixed, Phase::Rest],
+            _ => &[Phase::Whole],
         }
     }
 
-    fn pipeline(&self, gpu: &Gpu, variant: Variant, phase: Option<Phase>) -> wgpu::RenderPipeline {
+    fn pipeline(&self, gpu: &Gpu, variant: Variant, phase: Phase) -> wgpu::RenderPipeline {
         let mut constants = self.constants.clone();
         let on = |switch: bool| if switch { 1.0 } else { 0.0 };
         constants.push(("ROUND", on(variant.round)));
         constants.push(("PERSPECTIVE", on(variant.perspective)));
         constants.push(("WARPED", on(variant.warped)));
         constants.push(("LAYOUT", variant.layout.number()));
+        constants.push(("LAYERS", f64::from(variant.layout.count())));
+        constants.push(("STEADY", on(variant.steady)));
         constants.push(("LINEAR", on(variant.linear)));
         constants.push(("HAS_NORMALS", on(variant.has_normals)));
         let receivers = Receivers::layout(gpu);
@@ -166,12 +187,12 @@ impl Lookup {
         Fullscreen {
             label: "map lookup",
             module: &self.module,
-            entry: phase.map_or("visibility", Phase::entry),
+            entry: phase.entry(),
             groups: &groups,
             target: VisibilityTarget::FORMAT.into(),
             constants: &constants,
         }
-        .with_stencil(gpu, phase.map(Phase::state))
+        .with_stencil(gpu, phase.state())
     }
 
     fn bind(&self, gpu: &Gpu, maps: &wgpu::Texture) -> wgpu::BindGroup {

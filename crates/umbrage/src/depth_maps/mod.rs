@@ -95,8 +95,7 @@ impl MapTechnique {
     ) -> Result<Self, Error> {
         let maps = DepthMaps::new(gpu, settings, reach_texels)?;
         let more = stage.as_ref().map(|s| s.layout().clone());
-        let constants = [constants, &[("BLEND", maps.choice.blend())]].concat();
-        let lookup = Lookup::new(gpu, shader, settings.float("bias"), constants, more);
+        let lookup = Lookup::new(gpu, shader, settings.float("bias"), maps.choice.blend(), constants, more);
         let fitter = maps.choice.is_fitted_to_depth().then(|| SplitFitter::new(gpu, lookup.uniforms()));
         Ok(Self { maps, fitter, stage, lookup, draws: 0 })
     }
@@ -146,13 +145,13 @@ impl Technique for MapTechnique {
         if let Some(fitter) = fitter {
             fitter.record(passes, view.receivers);
         }
-        self.draws = self.maps.record(passes, view.casters, fitter) + 1;
+        self.draws = self.maps.record(passes, view.casters, fitter);
         let mut more = None;
         if let Some(stage) = &mut self.stage {
             self.draws += stage.record(passes, &self.maps);
             more = stage.bind_group();
         }
-        self.lookup.record(passes, view.receivers, more, visibility);
+        self.draws += self.lookup.record(passes, view.receivers, more, visibility);
         Ok(())
     }
 

@@ -1,5 +1,5 @@
-//! Look-ups in two phases: what is quick to decide everywhere, and the rest only where that left it open. The stencil remembers
-//! where, so that whole blocks of pixels are skipped without a branch.
+//! A look-up's draws. Some decide what is quick everywhere, and the rest only where that left it open: the stencil remembers where, so that
+//! whole blocks of pixels are skipped without a branch.
 
 use crate::{fullscreen::target_texture, gpu::Gpu};
 
@@ -8,46 +8,52 @@ const OPEN: u32 = 1;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Stencil8;
 
-/// The two draws of a look-up.
+/// One draw of a look-up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Phase {
+    /// All at once.
+    Whole,
     /// Writes what it can decide, discards the rest.
     Quick,
-    /// Draws the rest.
+    /// Writes all but where one split is mixed with the next one.
+    Unmixed,
+    /// Draws what an earlier one left open.
     Rest,
 }
 
 impl Phase {
-    pub const BOTH: [Self; 2] = [Self::Quick, Self::Rest];
-
     /// The fragment shader.
     pub fn entry(self) -> &'static str {
         match self {
             Self::Quick => "quick_visibility",
-            Self::Rest => "visibility",
+            Self::Unmixed => "unmixed_visibility",
+            Self::Whole | Self::Rest => "visibility",
         }
     }
 
+    /// Stencil reference.
     pub fn reference(self) -> u32 {
         match self {
-            Self::Quick => OPEN - 1,
             Self::Rest => OPEN,
+            Self::Whole | Self::Quick | Self::Unmixed => OPEN - 1,
         }
     }
 
-    pub fn state(self) -> wgpu::DepthStencilState {
+    /// In a pass with [`OpenPixels`], which all but [`Phase::Whole`] need.
+    pub fn state(self) -> Option<wgpu::DepthStencilState> {
         let (compare, pass_op) = match self {
-            Self::Quick => (wgpu::CompareFunction::Always, wgpu::StencilOperation::Replace),
+            Self::Quick | Self::Unmixed => (wgpu::CompareFunction::Always, wgpu::StencilOperation::Replace),
             Self::Rest => (wgpu::CompareFunction::Equal, wgpu::StencilOperation::Keep),
+            Self::Whole => return None,
         };
         let face = wgpu::StencilFaceState { compare, pass_op, ..wgpu::StencilFaceState::IGNORE };
-        wgpu::DepthStencilState {
+        Some(wgpu::DepthStencilState {
             format: FORMAT,
             depth_write_enabled: None,
             depth_compare: None,
             stencil: wgpu::StencilState { front: face, back: face, read_mask: !0, write_mask: !0 },
             bias: Default::default(),
-        }
+        })
     }
 }
 

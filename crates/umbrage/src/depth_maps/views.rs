@@ -20,12 +20,19 @@ pub(super) struct Views {
     depth_fit: bool,
 }
 
-/// What happens where one split gives way to the next; `BLEND` in `wgsl/map_layers.wgsl`.
+/// What happens where one split gives way to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Blend {
+pub(super) enum Blend {
     Off,
     Dither,
     Lerp,
+}
+
+impl Blend {
+    /// `BLEND` in `wgsl/map_layers.wgsl`.
+    pub(super) fn number(self) -> f64 {
+        f64::from(self as u8)
+    }
 }
 
 /// Share of a split over which it gives way to the next one.
@@ -76,9 +83,9 @@ impl Views {
         self.warp.is_some()
     }
 
-    /// `BLEND` in `wgsl/map_layers.wgsl`.
-    pub(super) fn blend(&self) -> f64 {
-        f64::from(self.blend as u8)
+    /// How one split gives way to the next.
+    pub(super) fn blend(&self) -> Blend {
+        self.blend
     }
 
     /// How what the camera sees is split.

@@ -92,6 +92,11 @@ const PARABOLOIDS: u32 = 3u;
 const SPLITS: u32 = 4u;
 const SIDES: u32 = 5u;
 
+// How many layers there may be; sizes the search for a split.
+override LAYERS: u32 = 9u;
+// Splits stand still while the camera moves.
+override STEADY: bool = false;
+
 // How a split gives way to the next one: at once, pixel by pixel, or by mixing both.
 override BLEND: u32 = 0u;
 const DITHER: u32 = 1u;
@@ -105,16 +110,13 @@ struct Split {
     is_covered: bool,
 }
 
-fn is_reached(borders: array<vec4f, 2>, distance: f32) -> u32 {
-    let ones = vec4u(1u);
-    let zeros = vec4u(0u);
-    let reached = select(zeros, ones, borders[0] <= vec4f(distance)) + select(zeros, ones, borders[1] <= vec4f(distance));
-    return reached.x + reached.y + reached.z + reached.w;
-}
-
 // By the distance along the view.
 fn split_at(distance: f32) -> Split {
-    let layer = is_reached(map.splits, distance);
+    var reached = vec4u(map.splits[0] <= vec4f(distance));
+    if LAYERS > 5u {
+        reached += vec4u(map.splits[1] <= vec4f(distance));
+    }
+    let layer = reached.x + reached.y + reached.z + reached.w;
     var next = 0.0;
     if BLEND != 0u {
         // No border beyond the last split but one is ever reached.

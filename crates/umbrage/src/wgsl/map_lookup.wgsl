@@ -133,13 +133,13 @@ fn texel_step(layer: u32, place: vec4f, change: vec4f) -> vec3f {
     return change.xyw;
 }
 
-// The split of a pixel. A map that stands still covers a ball around its part, so it goes on behind the part's end for as long as it
+// The split of a place. A map that stands still covers a ball around its part, so it goes on behind the part's end for as long as it
 // covers what is there, and gives way to the next one towards its own border.
 fn split_of(pixel: Pixel) -> Split {
     let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
-    var split = split_at(dot(map.view_distance, ndc) / eye_w(map.eye, ndc));
-    let layer = min(split.layer, 8u);
-    if map.layers[layer].border > 0.0 && split.is_covered {
+    var split = split_at(dot(map.view_distance, ndc) * (1.0 / eye_w(map.eye, ndc)));
+    if STEADY && split.is_covered {
+        let layer = min(split.layer, 8u);
         split.next *= 1.0 - steady_share(layer, ndc);
         let finer = max(layer, 1u) - 1u;
         let share = steady_share(finer, ndc);
@@ -204,13 +204,17 @@ fn map_point_in(pixel: Pixel, layer: u32) -> MapPoint {
     var point: MapPoint;
     point.layer = layer;
     let p = map.layers[point.layer].map_from_ndc * ndc;
-    var inverse_w = 1.0 / p.w;
+    // Parallel light leaves the camera's w as it is.
+    var inverse_w = 1.0 / eye_w(map.eye, ndc);
     if LAYOUT == PARABOLOIDS {
         let axis = map.layers[point.layer].axis;
         inverse_w = 1.0 / texel_w(p);
         point.texel = axis.xy + p.xy * inverse_w / axis.zw;
         point.depth = p.z / length(p.xyw);
     } else {
+        if PERSPECTIVE || WARPED {
+            inverse_w = 1.0 / p.w;
+        }
         point.texel = p.xy * inverse_w;
         point.depth = p.z * inverse_w;
     }

@@ -11,14 +11,14 @@ use crate::depth_maps::{
     BIAS, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
 };
 use crate::params::{Param, ParamKind};
-use crate::shader::{FULLSCREEN, MAP_LOOKUP, RECEIVERS, Shader};
+use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, RECEIVERS, Shader};
 use crate::technique::TechniqueInfo;
 use blur::{Blur, ScreenBlur};
 use technique::Blurred;
 
 const SOURCE_SHADER: Shader = Shader {
     name: "pcf-blur source",
-    parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, include_str!("source.wgsl")],
+    parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, include_str!("source.wgsl")],
     layouts: LOOKUP_LAYOUTS,
 };
 
@@ -58,6 +58,10 @@ const DEPTH_AWARE: Param = Param {
     kind: ParamKind::Switch { default: true },
 };
 
+/// What the source draws where a surface faces away from the light, for the blur to know: next to no light in place of none. As in
+/// `head.wgsl`.
+const OWN_SHADOW: f64 = 6.103515625e-5;
+
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: "pcf-blur",
@@ -83,7 +87,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     make: |gpu, settings| {
         let is_hard = settings.choice("source") == "hard";
         let reach = if is_hard { 0.5 } else { 2.0 };
-        let constants = [("IS_HARD", f64::from(u8::from(is_hard)))];
+        let constants = [("IS_HARD", f64::from(u8::from(is_hard))), ("OWN_SHADOW", OWN_SHADOW)];
         let source = MapTechnique::new(gpu, settings, &SOURCE_SHADER, reach, &constants)?;
         let radius = settings.float("radius");
         let blur = (radius > 0.0).then(|| ScreenBlur::new(gpu, radius, settings.switch("depth-aware")));

@@ -1,8 +1,5 @@
 // What is blurred: percentage-closer filtering over a square of 3 × 3 bilinear compares (ZA 3.2), or a single compare.
 
-// Where a surface faces away from the light, the blur has to know: next to no light in place of none.
-const OWN_SHADOW: f32 = 6.103515625e-5;
-
 override IS_HARD: bool = false;
 
 fn nearest_texel(point: MapPoint) -> f32 {
@@ -42,18 +39,4 @@ fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
         return nearest_texel(point);
     }
     return nine_compares(point);
-}
-
-// As `map_visibility.wgsl` but for what is in its own shadow.
-@fragment
-fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
-    let depth = textureLoad(receiver_depth, vec2i(at.xy), 0);
-    let pixel = Pixel(at.xy, depth, surface(map.eye, at.xy, depth));
-    let point = map_point(pixel);
-    let is_drawn = depth != map.eye.background_depth;
-    if !(is_drawn && point.is_covered) || point.is_own_shadow {
-        return select(1.0, OWN_SHADOW, is_drawn && point.is_own_shadow);
-    }
-    let share = lit_share(point, pixel);
-    return select(share, 0.0, share <= OWN_SHADOW);
 }
