@@ -2,9 +2,10 @@
 //!
 //! The thesis splits the scene in four, and an object across a split stays in the large node above it, however small
 //! it is. This tree is a *loose* octree (Ulrich, "Loose Octrees", Game Programming Gems, 2000): an object belongs to
-//! the cell that its centre is in, of the smallest size that is not below its own, and a node's box is its cell grown to
-//! twice the size. So an object on a split is stored as deep as any other, and one that moves to and fro across it
-//! stays where it is.
+//! the cell that its centre is in, of the smallest size that is not below four times its own, and a node's box is its cell
+//! grown to twice the size. So an object on a split is stored as deep as any other, and one that moves to and fro across it
+//! stays where it is. Four times, since a query's time goes into reaching nodes, not into testing the boxes in one: with as
+//! many nodes as objects it takes twice as long.
 //!
 //! Each node also knows the box around what is in and below it, its *content*: queries and cuts go by that.
 
@@ -47,6 +48,8 @@ struct Node {
     /// Bit i: there are objects in or below child i.
     occupied: u8,
     objects: Vec<u32>,
+    /// Their boxes, here too since queries go through them in order.
+    boxes: Vec<Bounds>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -67,6 +70,9 @@ const ROOT: u32 = 0;
 
 /// 256 cells along an edge: in a scene of a kilometre, leaves of four metres. The thesis has leaves of five.
 const DEPTH_LIMIT: u32 = 8;
+
+/// A cell is at least so many times as large as what it holds.
+const ROOMY: f64 = 4.0;
 
 /// Boxes of nodes are larger by this share of their coordinates, so that rounding, in the middles of cells or in a
 /// volume's test, never parts an object from its node.
@@ -94,7 +100,7 @@ impl SceneTree {
         let place = can_be_found(&bounds).then(|| {
             let node = self.home(&bounds);
             self.grow_content(node, &bounds);
-            self.enter(node, object)
+            self.enter(node, object, bounds)
         });
         self.entries[index] = Some(Entry { bounds, place });
         self.len += 1;
@@ -105,9 +111,10 @@ impl SceneTree {
         let Some(entry) = self.entries.get_mut(object as usize).and_then(Option::take) else { return };
         self.len -= 1;
         let Some(place) = entry.place else { return };
-        let objects = &mut self.nodes[place.node as usize].objects;
-        objects.swap_remove(place.index);
-        if let Some(moved) = objects.get(place.index)
+        let node = &mut self.nodes[place.node as usize];
+        node.objects.swap_remove(place.index);
+        node.boxes.swap_remove(place.index);
+        if let Some(moved) = node.objects.get(place.index)
             && let Some(entry) = &mut self.entries[*moved as usize]
         {
             entry.place = Some(place);
@@ -125,6 +132,7 @@ impl SceneTree {
                 if can_be_found(&bounds) && self.stays(place.node, &bounds) =>
             {
                 self.entries[object as usize] = Some(Entry { bounds, place: Some(place) });
+                self.nodes[place.node as usize].boxes[place.index] = bounds;
                 self.grow_content(place.node, &bounds);
                 self.shrink_content(place.node, &before);
             }
@@ -154,8 +162,8 @@ impl SceneTree {
     }
 
     fn gather_touched(&self, node: &Node, volume: &impl Volume, found: &mut Vec<u32>) {
-        let touched = |o: &u32| self.bounds(*o).is_some_and(|b| volume.may_touch(&b));
-        found.extend(node.objects.iter().copied().filter(touched));
+        let objects = node.objects.iter().zip(&node.boxes);
+        found.extend(objects.filter(|(_, bounds)| volume.may_touch(bounds)).map(|(object, _)| *object));
         for child in self.occupied_children(node) {
             match volume.side(&child.around_content()) {
                 Side::Outside => {}
@@ -212,10 +220,11 @@ impl SceneTree {
         }
     }
 
-    fn enter(&mut self, node: u32, object: u32) -> Place {
-        let objects = &mut self.nodes[node as usize].objects;
-        objects.push(object);
-        let place = Place { node, index: objects.len() - 1 };
+    fn enter(&mut self, node: u32, object: u32, bounds: Bounds) -> Place {
+        let entered = &mut self.nodes[node as usize];
+        let place = Place { node, index: entered.objects.len() };
+        entered.objects.push(object);
+        entered.boxes.push(bounds);
         // Up to the first ancestor that knows already; mostly that is the parent.
         let mut below = node;
         while below != ROOT {
@@ -245,8 +254,8 @@ impl Node {
         let loose = DVec3::splat(2.0 * half);
         let bounds = Bounds { min: center - loose, max: center + loose };
         let (bounds, content) = (grown_by_rounding(bounds), Bounds::EMPTY);
-        let (children, objects) = ([ROOT; 8], Vec::new());
-        Self { center, half, bounds, content, depth, parent, octant, children, occupied: 0, objects }
+        let (children, objects, boxes) = ([ROOT; 8], Vec::new(), Vec::new());
+        Self { center, half, bounds, content, depth, parent, octant, children, occupied: 0, objects, boxes }
     }
 
     fn has_center(&self, point: DVec3) -> bool {
@@ -255,7 +264,7 @@ impl Node {
 
     /// Whether a box of this half size fits a child that its centre is in.
     fn children_fit(&self, half: f64) -> bool {
-        self.depth < DEPTH_LIMIT && half <= self.half * 0.5
+        self.depth < DEPTH_LIMIT && half * ROOMY <= self.half * 0.5
     }
 
     fn is_vacant(&self) -> bool {

@@ -104,10 +104,18 @@ fn range(camera: &CameraView, seen: &Frustum, scene: &FitScene, cascades: &Casca
         return Some([near.min(far), far]);
     }
     let (forward, mut points) = (camera.forward(), Vec::new());
-    scene.receivers.iter().for_each(|b| seen.clip_box(b, &mut points));
-    let distances = points.iter().map(|p| forward.dot(*p - camera.eye));
-    let empty = [f64::INFINITY, f64::NEG_INFINITY];
-    let [near, far] = distances.fold(empty, |[near, far], d| [near.min(d), far.max(d)]);
+    let [mut near, mut far] = [f64::INFINITY, f64::NEG_INFINITY];
+    for receiver in &scene.receivers {
+        let middle = forward.dot(receiver.center() - camera.eye);
+        let half = forward.abs().dot(receiver.size() * 0.5);
+        // What lies between what is known already need not be cut.
+        if middle - half < near || middle + half > far {
+            points.clear();
+            seen.clip_box(receiver, &mut points);
+            let distances = points.iter().map(|p| forward.dot(*p - camera.eye));
+            [near, far] = distances.fold([near, far], |[near, far], d| [near.min(d), far.max(d)]);
+        }
+    }
     // Rounding may put the farthest receiver a little beyond.
     (near <= far).then(|| [near.min(limit), (far + 1e-6 * far.abs()).min(limit)])
 }

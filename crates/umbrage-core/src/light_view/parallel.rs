@@ -55,6 +55,21 @@ fn light_from_world([right, up, direction]: [DVec3; 3], [first, last]: [f64; 2])
     .transpose()
 }
 
+/// The points that lie farthest along `u` to either side.
+fn ends(u: DVec2, points: &[DVec2]) -> [Option<DVec2>; 2] {
+    let mut ends = [(None, f64::INFINITY), (None, f64::NEG_INFINITY)];
+    for p in points {
+        let along = u.dot(*p);
+        if along < ends[0].1 {
+            ends[0] = (Some(*p), along);
+        }
+        if along > ends[1].1 {
+            ends[1] = (Some(*p), along);
+        }
+    }
+    ends.map(|(end, _)| end)
+}
+
 /// Two axes across `direction` that give the points a small rectangle. A focus on the light keeps fixed axes, so that
 /// the map does not turn with the camera.
 fn tightest_axes(direction: DVec3, points: &[DVec3], focus: Focus) -> (DVec3, DVec3) {
@@ -69,15 +84,8 @@ fn tightest_axes(direction: DVec3, points: &[DVec3], focus: Focus) -> (DVec3, DV
     }
     // A few extreme points in fixed directions stand for the hull.
     let flat: Vec<DVec2> = points.iter().map(|p| DVec2::new(a.dot(*p), b.dot(*p))).collect();
-    let hull = (0..32).filter_map(|i| {
-        let u = DVec2::from_angle(std::f64::consts::TAU * f64::from(i) / 32.0);
-        let farthest = |(best, most): (Option<DVec2>, f64), p: &DVec2| {
-            let along = u.dot(*p);
-            if along > most { (Some(*p), along) } else { (best, most) }
-        };
-        flat.iter().fold((None, f64::NEG_INFINITY), farthest).0
-    });
-    let hull: Vec<DVec2> = hull.collect();
+    let directions = (0..16).map(|i| DVec2::from_angle(std::f64::consts::PI * f64::from(i) / 16.0));
+    let hull: Vec<DVec2> = directions.flat_map(|u| ends(u, &flat)).flatten().collect();
     let area = |angle: f64| {
         let u = DVec2::from_angle(angle);
         Rect::of(hull.iter().map(|p| DVec2::new(u.dot(*p), u.perp_dot(*p))))

@@ -46,9 +46,8 @@ impl SceneTree {
     }
 
     fn content_of(&self, node: &Node) -> Bounds {
-        let objects = node.objects.iter().filter_map(|o| self.bounds(*o));
         let below = self.occupied_children(node).map(|child| child.content);
-        objects.chain(below).fold(Bounds::EMPTY, Bounds::union)
+        node.boxes.iter().copied().chain(below).fold(Bounds::EMPTY, Bounds::union)
     }
 }
 

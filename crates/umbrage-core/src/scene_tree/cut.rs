@@ -37,8 +37,7 @@ impl SceneTree {
         closed: &mut VecDeque<&'a Node>,
         boxes: &mut Vec<Bounds>,
     ) {
-        let own = node.objects.iter().filter_map(|o| self.bounds(*o));
-        boxes.extend(own.filter(|b| volume.may_touch(b)));
+        boxes.extend(node.boxes.iter().copied().filter(|b| volume.may_touch(b)));
         closed.extend(self.occupied_children(node).filter(|child| volume.may_touch(&child.around_content())));
     }
 }
