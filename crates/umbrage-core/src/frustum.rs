@@ -1,6 +1,7 @@
 //! View volumes as planes: culling of boxes, and the part of a box that is inside.
 
 use crate::bounds::Bounds;
+use crate::volume::Side;
 use glam::{DMat4, DVec3, DVec4};
 
 /// The planes of a clip volume. A point p is inside where `plane · (p, 1) ≥ 0` for all of them.
@@ -40,14 +41,45 @@ impl Frustum {
 
     /// False only where the box is surely outside.
     pub fn may_see(&self, bounds: &Bounds) -> bool {
+        self.may_see_by(bounds, !0)
+    }
+
+    /// By the planes whose bits are set, and those after the 64th.
+    pub(crate) fn may_see_by(&self, bounds: &Bounds, planes: u64) -> bool {
         if bounds.is_empty() {
             return false;
         }
         let (center, half) = (bounds.center(), bounds.size() * 0.5);
-        self.planes.iter().all(|p| {
-            let normal = p.truncate();
-            normal.dot(center) + p.w + normal.abs().dot(half) >= 0.0
+        self.numbered(planes).all(|(_, plane)| {
+            let (height, reach) = height_and_reach(plane, center, half);
+            height + reach >= 0.0
         })
+    }
+
+    /// By the planes whose bits are set; leaves those that cut the box.
+    pub(crate) fn side_of(&self, bounds: &Bounds, planes: &mut u64) -> Side {
+        if bounds.is_empty() {
+            return Side::Outside;
+        }
+        let (center, half) = (bounds.center(), bounds.size() * 0.5);
+        let (mut cutting, mut side) = (0, Side::Inside);
+        for (i, plane) in self.numbered(*planes) {
+            let (height, reach) = height_and_reach(plane, center, half);
+            // A number that isn't one is on no side.
+            if height + reach < 0.0 || height.is_nan() {
+                return Side::Outside;
+            }
+            if height - reach < 0.0 {
+                side = Side::Partly;
+                cutting |= bit(i);
+            }
+        }
+        *planes = cutting;
+        side
+    }
+
+    fn numbered(&self, bits: u64) -> impl Iterator<Item = (usize, &DVec4)> {
+        self.planes.iter().enumerate().filter(move |(i, _)| *i >= 64 || bits & bit(*i) != 0)
     }
 
     /// True where the whole box is inside.
@@ -93,11 +125,21 @@ impl Frustum {
     }
 }
 
+/// The bit of a plane, if it has one.
+fn bit(plane: usize) -> u64 {
+    if plane < 64 { 1 << plane } else { 0 }
+}
+
+/// How far a box's middle is over a plane, and how far the box reaches from there.
+fn height_and_reach(plane: &DVec4, center: DVec3, half: DVec3) -> (f64, f64) {
+    let normal = plane.truncate();
+    (normal.dot(center) + plane.w, normal.abs().dot(half))
+}
+
 /// True where the whole box is on the inner side of a plane.
 fn holds(plane: &DVec4, bounds: &Bounds) -> bool {
-    let (center, half) = (bounds.center(), bounds.size() * 0.5);
-    let normal = plane.truncate();
-    normal.dot(center) + plane.w - normal.abs().dot(half) >= 0.0
+    let (height, reach) = height_and_reach(plane, bounds.center(), bounds.size() * 0.5);
+    height - reach >= 0.0
 }
 
 fn corners(planes: &[DVec4]) -> Vec<DVec3> {

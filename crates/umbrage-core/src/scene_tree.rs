@@ -158,16 +158,18 @@ impl SceneTree {
     /// Appends the objects whose boxes `volume` may touch, in an order that depends on nothing but the calls before.
     pub fn query(&self, volume: &impl Volume, found: &mut Vec<u32>) {
         // The root holds what is outside its own box too: it is never skipped nor taken whole.
-        self.gather_touched(&self.nodes[ROOT as usize], volume, found);
+        self.gather_touched(&self.nodes[ROOT as usize], volume, !0, found);
     }
 
-    fn gather_touched(&self, node: &Node, volume: &impl Volume, found: &mut Vec<u32>) {
+    /// `cutting`: see [`Volume::side_within`].
+    fn gather_touched(&self, node: &Node, volume: &impl Volume, cutting: u64, found: &mut Vec<u32>) {
         let objects = node.objects.iter().zip(&node.boxes);
-        found.extend(objects.filter(|(_, bounds)| volume.may_touch(bounds)).map(|(object, _)| *object));
+        found.extend(objects.filter(|(_, bounds)| volume.may_touch_within(bounds, cutting)).map(|(object, _)| *object));
         for child in self.occupied_children(node) {
-            match volume.side(&child.around_content()) {
+            let mut cutting = cutting;
+            match volume.side_within(&child.around_content(), &mut cutting) {
                 Side::Outside => {}
-                Side::Partly => self.gather_touched(child, volume, found),
+                Side::Partly => self.gather_touched(child, volume, cutting, found),
                 Side::Inside => self.gather_all(child, found),
             }
         }

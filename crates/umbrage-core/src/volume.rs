@@ -24,6 +24,20 @@ pub trait Volume {
     fn may_touch(&self, bounds: &Bounds) -> bool {
         self.side(bounds) != Side::Outside
     }
+
+    /// [`Volume::side`] of a box within others that were asked about. `cutting` has a bit for each plane, or what else bounds the volume,
+    /// that cuts those others and so may cut this one: all to begin with. Only those are looked at, and those that don't cut
+    /// this box are taken out.
+    fn side_within(&self, bounds: &Bounds, cutting: &mut u64) -> Side {
+        _ = cutting;
+        self.side(bounds)
+    }
+
+    /// The same for [`Volume::may_touch`].
+    fn may_touch_within(&self, bounds: &Bounds, cutting: u64) -> bool {
+        _ = cutting;
+        self.may_touch(bounds)
+    }
 }
 
 impl Side {
@@ -72,5 +86,13 @@ impl Volume for Frustum {
 
     fn may_touch(&self, bounds: &Bounds) -> bool {
         self.may_see(bounds)
+    }
+
+    fn side_within(&self, bounds: &Bounds, cutting: &mut u64) -> Side {
+        self.side_of(bounds, cutting)
+    }
+
+    fn may_touch_within(&self, bounds: &Bounds, cutting: u64) -> bool {
+        self.may_see_by(bounds, cutting)
     }
 }

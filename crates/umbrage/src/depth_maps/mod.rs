@@ -207,6 +207,8 @@ pub(crate) struct DepthMaps {
     textures: Option<Textures>,
     /// The boxes that this frame's views were fitted to.
     pub(crate) scene: FitScene,
+    /// Whose boxes those of the casters are, and when: the buffer of their instances and [`casters::Moves::now`].
+    scene_of: Option<(wgpu::Buffer, u64)>,
     pub(crate) views: Vec<LightView>,
     /// What the layers are.
     pub(crate) layout: Layers,
@@ -248,6 +250,7 @@ impl DepthMaps {
             pipelines: Pipelines::new(gpu, faces == "back", faces == "midpoint"),
             textures: None,
             scene: FitScene::default(),
+            scene_of: None,
             views: Vec::new(),
             layout: Layers::Single,
             borders: Vec::new(),
@@ -315,8 +318,12 @@ impl DepthMaps {
     fn gather(&mut self, view: &View<'_>) {
         let FitScene { casters, receivers, around } = &mut self.scene;
         *around = view.casters.all_bounds();
-        casters.clear();
-        view.casters.casting().cut(&EVERYWHERE, MOST_BOXES, casters);
+        let now = view.casters.moves().now();
+        if self.scene_of.as_ref().is_none_or(|(of, then)| (of, *then) != (&view.casters.instances, now)) {
+            casters.clear();
+            view.casters.casting().cut(&EVERYWHERE, MOST_BOXES, casters);
+            self.scene_of = Some((view.casters.instances.clone(), now));
+        }
         receivers.clear();
         let receiving = view.casters.receiving();
         match self.choice.focus() {
