@@ -2,9 +2,9 @@
 //!
 //! The thesis splits the scene in four, and an object across a split stays in the large node above it, however small
 //! it is. This tree is a *loose* octree (Ulrich, "Loose Octrees", Game Programming Gems, 2000): an object belongs to
-//! the cell that its centre is in, of the smallest size that is not below four times its own, and a node's box is its cell
+//! the cell that its centre is in, of the smallest size that is not below twice its own, and a node's box is its cell
 //! grown to twice the size. So an object on a split is stored as deep as any other, and one that moves to and fro across it
-//! stays where it is. Four times, since a query's time goes into reaching nodes, not into testing the boxes in one: with as
+//! stays where it is. Twice, since a query's time goes into reaching nodes, not into testing the boxes in one: with as
 //! many nodes as objects it takes twice as long.
 //!
 //! Each node also knows the box around what is in and below it, its *content*: queries and cuts go by that.
@@ -72,7 +72,7 @@ const ROOT: u32 = 0;
 const DEPTH_LIMIT: u32 = 8;
 
 /// A cell is at least so many times as large as what it holds.
-const ROOMY: f64 = 4.0;
+const ROOMY: f64 = 2.0;
 
 /// Boxes of nodes are larger by this share of their coordinates, so that rounding, in the middles of cells or in a
 /// volume's test, never parts an object from its node.

@@ -99,12 +99,14 @@ impl LayerCache {
 
     /// The store is drawn anew with these casters.
     pub fn stored(&mut self, frame: &Frame<'_>, view: &LightView, places: &[u32]) {
-        self.store = Some(Shown::of(frame, view, self.receivers(), places));
+        let memory = self.store.take().map(|store| store.casters);
+        self.store = Some(Shown::of(frame, view, self.receivers(), places, memory));
     }
 
     /// The map is drawn anew with these casters, over the store where that is wanted.
     pub fn shown(&mut self, frame: &Frame<'_>, view: &LightView, places: &[u32], over_store: bool) {
-        let mut shown = Shown::of(frame, view, self.receivers(), places);
+        let memory = self.map.take().map(|map| map.casters);
+        let mut shown = Shown::of(frame, view, self.receivers(), places, memory);
         if let Some(store) = self.store.as_ref().filter(|_| over_store) {
             shown.casters.add(&store.casters);
         }
@@ -113,8 +115,9 @@ impl LayerCache {
 }
 
 impl Shown {
-    fn of(frame: &Frame<'_>, view: &LightView, receivers: Bounds, places: &[u32]) -> Self {
-        let mut casters = Places::default();
+    /// `memory`: places that are not needed any more.
+    fn of(frame: &Frame<'_>, view: &LightView, receivers: Bounds, places: &[u32], memory: Option<Places>) -> Self {
+        let mut casters = memory.unwrap_or_default();
         casters.clear(frame.casters.len());
         places.iter().for_each(|place| {
             casters.insert(*place);
