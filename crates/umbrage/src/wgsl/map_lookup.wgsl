@@ -29,6 +29,8 @@ struct MapPoint {
     // One over the homogeneous texel's last coordinate, the distance along the axis of a perspective view; else 1.
     inverse_w: f32,
     layer: u32,
+    // Share of the next split.
+    next: f32,
     is_covered: bool,
 }
 
@@ -137,28 +139,30 @@ fn texel_step(layer: u32, place: vec4f, change: vec4f) -> vec3f {
 // covers what is there, and gives way to the next one towards its own border.
 fn split_of(pixel: Pixel) -> Split {
     let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
-    var split = split_at(dot(map.view_distance, ndc) * (1.0 / eye_w(map.eye, ndc)));
-    if STEADY && split.is_covered {
+    let inverse_w = 1.0 / eye_w(map.eye, ndc);
+    var split = split_at(dot(map.view_distance, ndc) * inverse_w);
+    if STEADY {
         let layer = min(split.layer, 8u);
-        split.next *= 1.0 - steady_share(layer, ndc);
         let finer = max(layer, 1u) - 1u;
-        let share = steady_share(finer, ndc);
-        if finer < layer && share > 0.0 {
-            return Split(finer, 1.0 - share, true);
-        }
+        let share = steady_share(finer, ndc, inverse_w);
+        let next = split.next * (1.0 - steady_share(layer, ndc, inverse_w));
+        let goes_on = finer < layer && share > 0.0;
+        split.layer = select(split.layer, finer, goes_on);
+        split.next = select(next, 1.0 - share, goes_on);
     }
     return split;
 }
 
 // Share of a place that a steady split's map has: all within its borders, and where splits are mixed none at them.
-fn steady_share(layer: u32, ndc: vec4f) -> f32 {
+fn steady_share(layer: u32, ndc: vec4f, eye_inverse_w: f32) -> f32 {
     let p = map.layers[layer].map_from_ndc * ndc;
-    let texel = p.xy / p.w;
+    // Parallel light leaves the camera's w as it is.
+    let inverse_w = select(eye_inverse_w, 1.0 / p.w, PERSPECTIVE);
+    let texel = p.xy * inverse_w;
     let inside = min(texel, map.size - texel) - map.layers[layer].border;
     let room = min(inside.x, inside.y);
-    let is_in_front = p.w * eye_w(map.eye, ndc) > 0.0;
     let share = select(select(0.0, 1.0, room >= 0.0), saturate(room / (STEADY_FADE * map.size)), BLEND != 0u);
-    return select(0.0, share, is_in_front);
+    return select(0.0, share, inverse_w * eye_inverse_w > 0.0);
 }
 
 // The side of a post-perspective cube that covers a pixel, the one with most room around it.
@@ -187,6 +191,7 @@ fn map_point(pixel: Pixel) -> MapPoint {
         }
         var point = map_point_in(pixel, layer);
         point.is_covered &= split.is_covered;
+        point.next = select(0.0, split.next, BLEND == LERP);
         return point;
     }
     if LAYOUT == SINGLE {

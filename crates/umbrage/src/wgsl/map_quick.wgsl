@@ -10,7 +10,7 @@ fn quick_visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
         return settled_share(pixel, point);
     }
     let share = quick_share(point, pixel);
-    if share < 0.0 || is_mixed(pixel) {
+    if share < 0.0 || point.next > 0.0 {
         discard;
     }
     return share;

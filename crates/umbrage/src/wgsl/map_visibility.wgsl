@@ -22,10 +22,6 @@ fn settled_share(pixel: Pixel, point: MapPoint) -> f32 {
     return select(1.0, OWN_SHADOW, is_drawn(pixel) && point.is_own_shadow);
 }
 
-fn is_mixed(pixel: Pixel) -> bool {
-    return LAYOUT == SPLITS && BLEND == LERP && split_of(pixel).next > 0.0;
-}
-
 @fragment
 fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
     let pixel = pixel_at(at.xy);
@@ -34,11 +30,8 @@ fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
         return settled_share(pixel, point);
     }
     var share = lit_share(point, pixel);
-    if LAYOUT == SPLITS && BLEND == LERP {
-        let split = split_of(pixel);
-        if split.next > 0.0 {
-            share = mix(share, lit_share(map_point_in(pixel, split.layer + 1u), pixel), split.next);
-        }
+    if LAYOUT == SPLITS && BLEND == LERP && point.next > 0.0 {
+        share = mix(share, lit_share(map_point_in(pixel, point.layer + 1u), pixel), point.next);
     }
     return select(share, 0.0, share <= OWN_SHADOW);
 }
@@ -52,7 +45,7 @@ fn unmixed_visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
         return settled_share(pixel, point);
     }
     let share = lit_share(point, pixel);
-    if is_mixed(pixel) {
+    if point.next > 0.0 {
         discard;
     }
     return select(share, 0.0, share <= OWN_SHADOW);
