@@ -20,7 +20,7 @@ Examples:
   umbrage bench city --light 0 --techniques shadow-map,pcf --path strafe
 
 Techniques take turns frame by frame. `floor` is one full-screen pass that reads depth and writes visibility; \
-`bare-minimum` is a depth-only pass into a map of the same size and a full-screen pass with one look-up.
+`bare-minimum` is a depth-only pass into a map of the same size, or into as many as there are splits, and a full-screen pass with one look-up.
 
 --path moves the camera by about a pixel a frame (walk: forward; strafe: to the right; turn: round; fly: all at once) and measures \
 flicker: the mean absolute change of visibility, 0 to 1, from one frame to the next at points that are fixed in the scene. A point \

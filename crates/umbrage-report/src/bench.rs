@@ -118,7 +118,7 @@ pub struct BenchResult {
     /// GPU time and preparation over those of the floor; null where there is no GPU time.
     #[serde(serialize_with = "maybe_six")]
     pub vs_floor: Option<f64>,
-    /// The same over the bare minimum with a map of the same size.
+    /// The same over the bare minimum with as many maps of the same size.
     #[serde(serialize_with = "maybe_six")]
     pub vs_bare_minimum: Option<f64>,
     /// Mean absolute change of visibility from frame to frame at fixed points of the scene, 0 to 1, see [`umbrage_metrics::Flicker`].
@@ -165,9 +165,6 @@ pub struct BenchPass {
 
 /// Frames before the measurement: pipelines are made in the first, buffers find their size in the second.
 const WARM_UP: u32 = 3;
-
-/// Map size of the bare minimum where a technique has no parameter `size`.
-const USUAL_MAP: u32 = 1024;
 
 impl Bench {
     /// Measures. Techniques take turns frame by frame, so that a drift of the machine hits all of them alike.
@@ -277,13 +274,15 @@ impl Bench {
             let frames = Frames::default();
             Runner { baseline, choice, renderer, overlay: false, anew, lights: lights.len(), frames }
         };
-        let mut sizes: Vec<u32> = self.choices.iter().map(map_size).collect();
-        sizes.sort_unstable();
-        sizes.dedup();
+        // What has splits is set against one map, too.
+        let maps = self.choices.iter().map(Maps::of);
+        let mut maps: Vec<Maps> = maps.flat_map(|maps| [Maps { splits: 1, ..maps }, maps]).collect();
+        maps.sort_unstable();
+        maps.dedup();
         let floor = make(Some(Baseline::Floor), None, &|_| Ok(baseline::floor(gpu)));
-        let bare = sizes
-            .into_iter()
-            .map(|size| make(Some(Baseline::BareMinimum(size)), None, &|_| Ok(baseline::bare_minimum(gpu, size)?)));
+        let bare = maps.into_iter().map(|maps| {
+            make(Some(Baseline::BareMinimum(maps)), None, &|_| Ok(baseline::bare_minimum(gpu, maps.size, maps.splits)?))
+        });
         let techniques = self
             .choices
             .iter()
@@ -305,8 +304,17 @@ const DARKNESS: f32 = 0.5;
 enum Baseline {
     /// One full-screen pass that reads depth and writes visibility.
     Floor,
-    /// A depth-only pass over the casters into a map of this size, and one full-screen one-tap pass.
-    BareMinimum(u32),
+    /// A depth-only pass over the casters into each of the maps, and one full-screen one-tap pass.
+    BareMinimum(Maps),
+}
+
+/// What maps a technique has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Maps {
+    /// Parts of what the camera sees with a map each.
+    splits: u32,
+    /// Texels across.
+    size: u32,
 }
 
 /// One technique or baseline under measurement; the first error ends its part.
@@ -352,7 +360,7 @@ impl Runner<'_> {
     }
 
     fn result(&self, cost: Option<BenchCost>, all: &[(Option<Baseline>, Option<BenchCost>)]) -> BenchResult {
-        let own_size = self.choice.map_or(USUAL_MAP, map_size);
+        let own = self.choice.map_or(Maps::USUAL, Maps::of);
         let over = |baseline: Baseline| {
             let (_, other) = all.iter().find(|(b, _)| *b == Some(baseline))?;
             Some(cost.as_ref()?.added_ms()? / other.as_ref()?.added_ms()?)
@@ -362,9 +370,7 @@ impl Runner<'_> {
                 let overlay = self.overlay.then(|| ("overlay".to_string(), "on".to_string()));
                 (choice.info.id.to_string(), choice.changed().clone().into_iter().chain(overlay).collect())
             }
-            (Some(Baseline::BareMinimum(size)), _) => {
-                ("bare-minimum".into(), BTreeMap::from([("size".into(), size.to_string())]))
-            }
+            (Some(Baseline::BareMinimum(maps)), _) => ("bare-minimum".into(), maps.settings()),
             _ => ("floor".into(), BTreeMap::new()),
         };
         let (status, reason) = match &self.renderer {
@@ -381,7 +387,7 @@ impl Runner<'_> {
             status,
             reason,
             vs_floor: over(Baseline::Floor),
-            vs_bare_minimum: over(Baseline::BareMinimum(own_size)),
+            vs_bare_minimum: over(Baseline::BareMinimum(own)),
             cost,
             flicker: None,
             flicker_ratio: None,
@@ -427,8 +433,21 @@ fn added(counts: impl Iterator<Item = (&'static str, u64)>) -> Vec<(&'static str
     sums
 }
 
-/// The size of the technique's map, where it has a parameter for it.
-fn map_size(choice: &Choice) -> u32 {
-    let size = choice.settings.iter().find(|(name, _)| *name == "size");
-    size.and_then(|(_, value)| value.to_string().parse().ok()).unwrap_or(USUAL_MAP)
+impl Maps {
+    /// Where a technique has no parameters for them.
+    const USUAL: Self = Self { splits: 1, size: 1024 };
+
+    fn of(choice: &Choice) -> Self {
+        let value = |name: &str| {
+            let (_, value) = choice.settings.iter().find(|(n, _)| *n == name)?;
+            value.to_string().parse().ok()
+        };
+        let Self { splits, size } = Self::USUAL;
+        Self { splits: value("splits").unwrap_or(splits), size: value("size").unwrap_or(size) }
+    }
+
+    fn settings(self) -> BTreeMap<String, String> {
+        let splits = (self.splits > 1).then(|| ("splits".to_string(), self.splits.to_string()));
+        splits.into_iter().chain([("size".into(), self.size.to_string())]).collect()
+    }
 }

@@ -62,8 +62,8 @@ impl BenchReport {
                 });
             }
         }
-        text += "\n× floor, × bare: GPU and preparation time over that of one full-screen pass, and over that of a plain map \
-                 with a one-tap look-up.\n";
+        text += "\n× floor, × bare: GPU and preparation time over that of one full-screen pass, and over that of plain maps of \
+                 the same size and number with a one-tap look-up.\n";
         if self.path.is_some() {
             text += "flicker: mean change of visibility from frame to frame at fixed points of the scene; × truth: over that of \
                      the reference.\n";

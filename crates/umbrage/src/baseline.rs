@@ -41,14 +41,21 @@ pub fn floor(gpu: &Gpu) -> Box<dyn Technique> {
     Box::new(Floor { pipeline })
 }
 
-/// The bare minimum of a shadow map of `size` texels: one depth-only pass over the casters for each view, one
-/// full-screen pass with one compare, no bias at all. Full of acne; its time is what counts.
+/// The bare minimum of shadow maps of `size` texels: one depth-only pass over the casters that each view sees, one
+/// full-screen pass with one compare in the first map, no bias at all. Full of acne; its time is what counts. With more than one of `splits`
+/// the views are those of [`techniques::cascaded`] where a light has any.
 ///
 /// # Errors
-/// [`Error::Size`] beyond the adapter's limit.
-pub fn bare_minimum(gpu: &Gpu, size: u32) -> Result<Box<dyn Technique>, Error> {
+/// [`Error::Size`] beyond the adapter's limit, [`Error::Setting`] for more splits than there may be.
+pub fn bare_minimum(gpu: &Gpu, size: u32, splits: u32) -> Result<Box<dyn Technique>, Error> {
+    let of_one = &techniques::shadow_map::INFO;
     let set = [("size".into(), size.to_string()), ("cache".into(), "off".into())];
-    let settings = techniques::shadow_map::INFO.settings(&set)?;
+    let settings = if splits > 1 {
+        let more = [("splits".into(), splits.to_string()), ("blend".into(), "off".into())];
+        techniques::cascaded::INFO.settings(&[set, more].concat())?.with_defaults_of(of_one.params)
+    } else {
+        of_one.settings(&set)?
+    };
     Ok(Box::new(MapTechnique::new(gpu, &settings, &BARE, 0.0, &[])?.with_every_caster().with_back_faces()))
 }
 

@@ -87,6 +87,20 @@ fn bench_sets_techniques_against_the_floor() {
 }
 
 #[test]
+fn bench_sets_splits_against_as_many_maps() {
+    let arguments = "bench primitives --techniques cascaded:size=256:splits=3 --light 0 --frames 2 --size 96x72 --json";
+    let json = output(Path::new("."), &arguments.split(' ').collect::<Vec<_>>());
+    let report: Value = serde_json::from_str(&json).expect("JSON");
+    let results = report["scenes"][0]["lights"][0]["results"].as_array().expect("results");
+    let [_, one, three, cascaded] = &results[..] else { panic!("{json}") };
+    assert_eq!((&one["settings"]["splits"], &three["settings"]["splits"]), (&Value::Null, &"3".into()));
+    assert!(cascaded["status"] == "ok" && three["settings"]["size"] == "256", "{json}");
+    // Three maps' memory against one's.
+    let bytes = |result: &Value| result["cost"]["bytes"].as_u64().expect("bytes");
+    assert!(bytes(three) > 2 * bytes(one), "{json}");
+}
+
+#[test]
 fn bench_moves_lights_and_casters_and_puts_lights_together() {
     let bench = |more: &str| {
         let arguments = format!("bench contact --techniques volume,pcf:size=64 --frames 3 --size 96x72 --json {more}");

@@ -141,6 +141,8 @@ fn yardsticks(batches: &[Vec<BenchResult>]) -> Yardsticks {
         let mut costs = batch.iter().filter_map(|result| Some((result, cost_ms(result, clock)?)));
         let Some((_, floor)) = costs.next() else { continue };
         floors.push(floor);
+        // Those of one map: the others are for techniques with splits.
+        let costs = costs.filter(|(result, _)| !result.settings.contains_key("splits"));
         bares.extend(costs.filter_map(|(result, ms)| Some((result.settings.get("size")?.parse().ok()?, ms - floor))));
     }
     let distance = |size: u32| (f64::from(size) / USUAL_MAP).ln().abs();
