@@ -88,7 +88,7 @@ fn bench_sets_techniques_against_the_floor() {
 
 #[test]
 fn bench_sets_splits_against_as_many_maps() {
-    let arguments = "bench primitives --techniques cascaded:size=256:splits=3 --light 0 --frames 2 --size 96x72 --json";
+    let arguments = "bench city:0.1 --techniques cascaded:size=256:splits=3 --light 0 --frames 2 --size 96x72 --json";
     let json = output(Path::new("."), &arguments.split(' ').collect::<Vec<_>>());
     let report: Value = serde_json::from_str(&json).expect("JSON");
     let results = report["scenes"][0]["lights"][0]["results"].as_array().expect("results");
