@@ -43,7 +43,7 @@ pub fn floor(gpu: &Gpu) -> Box<dyn Technique> {
 
 /// The bare minimum of shadow maps of `size` texels: one depth-only pass over the casters that each view sees, one
 /// full-screen pass with one compare in the first map, no bias at all. Full of acne; its time is what counts. With more than one of `splits`
-/// the views are those of [`techniques::cascaded`] where a light has any.
+/// the views are those of `cascaded` where a light has any.
 ///
 /// # Errors
 /// [`Error::Size`] beyond the adapter's limit, [`Error::Setting`] for more splits than there may be.
