@@ -81,7 +81,7 @@ impl Volume for Bounds {
 
 impl Volume for Frustum {
     fn side(&self, bounds: &Bounds) -> Side {
-        Side::of(self.may_see(bounds), || self.holds(bounds))
+        self.side_of(bounds, &mut { !0 })
     }
 
     fn may_touch(&self, bounds: &Bounds) -> bool {
