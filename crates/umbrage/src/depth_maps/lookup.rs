@@ -24,8 +24,6 @@ pub(crate) struct Lookup {
     /// Layout of what the technique binds besides, as group 2.
     more: Option<wgpu::BindGroupLayout>,
     pipelines: Vec<(Variant, Draws)>,
-    /// Splits give way to the next one by mixing both.
-    mixes: bool,
     /// The shader has a `quick_share`, see `wgsl/map_quick.wgsl`.
     is_quick: bool,
     open: OpenPixels,
@@ -69,7 +67,6 @@ impl Lookup {
             layout: lookup_layout(gpu),
             more,
             pipelines: Vec::new(),
-            mixes: blend == Blend::Lerp,
             is_quick: false,
             open: OpenPixels::default(),
             uniforms: gpu.buffer(
@@ -111,7 +108,7 @@ impl Lookup {
             self.pipelines.push((variant, self.draws_of(gpu, variant)));
             self.pipelines.len() - 1
         }));
-        if self.phases(variant.layout).len() > 1 {
+        if self.phases().len() > 1 {
             self.open.prepare(gpu, view.receivers.size);
         }
         if self.bind_group.as_ref().is_none_or(|(t, _)| t != textures.result()) {
@@ -160,15 +157,11 @@ impl Lookup {
     }
 
     fn draws_of(&self, gpu: &Gpu, variant: Variant) -> Draws {
-        self.phases(variant.layout).iter().map(|phase| (*phase, self.pipeline(gpu, variant, *phase))).collect()
+        self.phases().iter().map(|phase| (*phase, self.pipeline(gpu, variant, *phase))).collect()
     }
 
-    fn phases(&self, layout: Layers) -> &'static [Phase] {
-        match layout {
-            _ if self.is_quick => &[Phase::Quick, Phase::Rest],
-            Layers::Splits(2..) if self.mixes => &[Phase::Unmixed, Phase::Rest],
-            _ => &[Phase::Whole],
-        }
+    fn phases(&self) -> &'static [Phase] {
+        if self.is_quick { &[Phase::Quick, Phase::Rest] } else { &[Phase::Whole] }
     }
 
     fn pipeline(&self, gpu: &Gpu, variant: Variant, phase: Phase) -> wgpu::RenderPipeline {

@@ -13,6 +13,7 @@ mod pipelines;
 mod soft;
 mod split_fit;
 mod stage;
+mod steady;
 mod submission;
 mod taps;
 mod textures;

@@ -15,9 +15,7 @@ pub(super) enum Phase {
     Whole,
     /// Writes what it can decide, discards the rest.
     Quick,
-    /// Writes all but where one split is mixed with the next one.
-    Unmixed,
-    /// Draws what an earlier one left open.
+    /// Draws what the quick one left open.
     Rest,
 }
 
@@ -26,7 +24,6 @@ impl Phase {
     pub fn entry(self) -> &'static str {
         match self {
             Self::Quick => "quick_visibility",
-            Self::Unmixed => "unmixed_visibility",
             Self::Whole | Self::Rest => "visibility",
         }
     }
@@ -35,14 +32,14 @@ impl Phase {
     pub fn reference(self) -> u32 {
         match self {
             Self::Rest => OPEN,
-            Self::Whole | Self::Quick | Self::Unmixed => OPEN - 1,
+            Self::Whole | Self::Quick => OPEN - 1,
         }
     }
 
     /// In a pass with [`OpenPixels`], which all but [`Phase::Whole`] need.
     pub fn state(self) -> Option<wgpu::DepthStencilState> {
         let (compare, pass_op) = match self {
-            Self::Quick | Self::Unmixed => (wgpu::CompareFunction::Always, wgpu::StencilOperation::Replace),
+            Self::Quick => (wgpu::CompareFunction::Always, wgpu::StencilOperation::Replace),
             Self::Rest => (wgpu::CompareFunction::Equal, wgpu::StencilOperation::Keep),
             Self::Whole => return None,
         };

@@ -46,6 +46,7 @@ shader_struct! {
         texel_w: [f32; 3],
         pad_f: f32,
         axis: [f32; 4],
+        from_first: [f32; 4],
     }
 }
 
@@ -129,6 +130,7 @@ impl MapLookup {
         for v in &maps.views {
             layers[v.layer as usize] = MapLayer::of(v, &world_from_ndc, &maps.scene.casters);
         }
+        super::steady::share_first(&maps.views, &mut layers);
         let center = view.light.shape.center();
         let from_light = DMat4::from_translation(view.camera.eye * center.w - center.truncate()) * eye_from_ndc;
         Self {

@@ -26,6 +26,8 @@ struct MapLayer {
     // Perspective: the texel straight ahead, and the tangent that a texel spans, of a paraboloid what it spans of its plane. Parallel: the
     // metres that it spans. Warped: how w changes with texels times w, across and down.
     axis: vec4f,
+    // Of a split that stands still: its texels are those of layer 0's matrix times x, plus zw; y is one over x.
+    from_first: vec4f,
 }
 
 // The light as a surface. A round one is the image of the unit ball under its half axes, a flat one has two.
@@ -102,7 +104,7 @@ override BLEND: u32 = 0u;
 const DITHER: u32 = 1u;
 const LERP: u32 = 2u;
 
-// A pixel's split.
+// A pixel's layer.
 struct Split {
     layer: u32,
     // Share of the next one.

@@ -29,8 +29,6 @@ struct MapPoint {
     // One over the homogeneous texel's last coordinate, the distance along the axis of a perspective view; else 1.
     inverse_w: f32,
     layer: u32,
-    // Share of the next split.
-    next: f32,
     is_covered: bool,
 }
 
@@ -40,7 +38,7 @@ const CREASE: f32 = 0.5;
 const BEND: f32 = 0.25;
 
 // Share of a steady map's width over which it gives way to the next one.
-const STEADY_FADE: f32 = 0.05;
+const STEADY_FADE: f32 = 0.025;
 
 // Widest filter of a radius in metres.
 const MOST_TEXELS: f32 = 64.0;
@@ -137,15 +135,14 @@ fn texel_step(layer: u32, place: vec4f, change: vec4f) -> vec3f {
 
 // The split of a place. A map that stands still covers a ball around its part, so it goes on behind the part's end for as long as it
 // covers what is there, and gives way to the next one towards its own border.
-fn split_of(pixel: Pixel) -> Split {
+fn split_of(pixel: Pixel, first: MapPoint) -> Split {
     let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
-    let inverse_w = 1.0 / eye_w(map.eye, ndc);
-    var split = split_at(dot(map.view_distance, ndc) * inverse_w);
+    var split = split_at(dot(map.view_distance, ndc) / eye_w(map.eye, ndc));
     if STEADY {
         let layer = min(split.layer, 8u);
         let finer = max(layer, 1u) - 1u;
-        let share = steady_share(finer, ndc, inverse_w);
-        let next = split.next * (1.0 - steady_share(layer, ndc, inverse_w));
+        let share = steady_share(first, finer);
+        let next = split.next * (1.0 - steady_share(first, layer));
         let goes_on = finer < layer && share > 0.0;
         split.layer = select(split.layer, finer, goes_on);
         split.next = select(next, 1.0 - share, goes_on);
@@ -153,16 +150,19 @@ fn split_of(pixel: Pixel) -> Split {
     return split;
 }
 
+// The texel of a steady split.
+fn steady_texel(first: MapPoint, layer: u32) -> vec2f {
+    let from_first = map.layers[layer].from_first;
+    return first.texel * from_first.x + from_first.zw;
+}
+
 // Share of a place that a steady split's map has: all within its borders, and where splits are mixed none at them.
-fn steady_share(layer: u32, ndc: vec4f, eye_inverse_w: f32) -> f32 {
-    let p = map.layers[layer].map_from_ndc * ndc;
-    // Parallel light leaves the camera's w as it is.
-    let inverse_w = select(eye_inverse_w, 1.0 / p.w, PERSPECTIVE);
-    let texel = p.xy * inverse_w;
+fn steady_share(first: MapPoint, layer: u32) -> f32 {
+    let texel = steady_texel(first, layer);
     let inside = min(texel, map.size - texel) - map.layers[layer].border;
     let room = min(inside.x, inside.y);
     let share = select(select(0.0, 1.0, room >= 0.0), saturate(room / (STEADY_FADE * map.size)), BLEND != 0u);
-    return select(0.0, share, inverse_w * eye_inverse_w > 0.0);
+    return select(0.0, share, first.is_covered);
 }
 
 // The side of a post-perspective cube that covers a pixel, the one with most room around it.
@@ -181,29 +181,41 @@ fn side_of(pixel: Pixel) -> u32 {
     return side;
 }
 
-// For the surface that a pixel shows.
-fn map_point(pixel: Pixel) -> MapPoint {
+// The layer of a pixel. `first` is its place by layer 0's matrix: that in the maps of splits that stand still differs by scale and offset alone.
+fn layer_of_pixel(pixel: Pixel, first: MapPoint) -> Split {
     if LAYOUT == SPLITS {
-        let split = split_of(pixel);
-        var layer = split.layer;
+        var split = split_of(pixel, first);
         if BLEND == DITHER {
-            layer += select(0u, 1u, split.next > gradient_noise(pixel.at));
+            split.layer += select(0u, 1u, split.next > gradient_noise(pixel.at));
         }
-        var point = map_point_in(pixel, layer);
-        point.is_covered &= split.is_covered;
-        point.next = select(0.0, split.next, BLEND == LERP);
-        return point;
+        split.next = select(0.0, split.next, BLEND == LERP);
+        return split;
     }
     if LAYOUT == SINGLE {
-        return map_point_in(pixel, 0u);
+        return Split(0u, 0.0, true);
     }
     if LAYOUT == SIDES {
-        return map_point_in(pixel, side_of(pixel));
+        return Split(side_of(pixel), 0.0, true);
     }
-    return map_point_in(pixel, layer_of((map.from_light * ndc_of(map.eye, pixel.at, pixel.depth)).xyz));
+    return Split(layer_of((map.from_light * ndc_of(map.eye, pixel.at, pixel.depth)).xyz), 0.0, true);
 }
 
-fn map_point_in(pixel: Pixel, layer: u32) -> MapPoint {
+// For the surface that a pixel shows.
+fn map_point(pixel: Pixel, first: MapPoint, layer: u32) -> MapPoint {
+    var point = first;
+    if STEADY {
+        point.layer = layer;
+        point.texel = steady_texel(first, layer);
+        point.along = first.along * map.layers[layer].from_first.y;
+    } else {
+        point = point_by_matrix(pixel, layer);
+    }
+    point.is_covered &= all(point.texel >= vec2f(0.0)) && all(point.texel < vec2f(map.size));
+    return point;
+}
+
+// By a layer's own matrix; covered by all that is in front of the light.
+fn point_by_matrix(pixel: Pixel, layer: u32) -> MapPoint {
     let surface = pixel.surface;
     let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
     var point: MapPoint;
@@ -236,7 +248,7 @@ fn map_point_in(pixel: Pixel, layer: u32) -> MapPoint {
     point.along = plane.along;
     point.across = plane.across;
     point.bend = plane.bend;
-    point.is_covered = is_in_front && all(point.texel >= vec2f(0.0)) && all(point.texel < vec2f(map.size));
+    point.is_covered = is_in_front;
     // Positive where the surface faces the light; 0 where there is no normal or no view.
     point.is_own_shadow = surface.casts && is_in_front && point.across < 0.0;
     let z = abs(point.depth);

@@ -5,12 +5,15 @@
 @fragment
 fn quick_visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
     let pixel = pixel_at(at.xy);
-    let point = map_point(pixel);
+    let first = point_by_matrix(pixel, 0u);
+    let split = layer_of_pixel(pixel, first);
+    var point = map_point(pixel, first, split.layer);
+    point.is_covered &= split.is_covered;
     if is_settled(pixel, point) {
         return settled_share(pixel, point);
     }
     let share = quick_share(point, pixel);
-    if share < 0.0 || point.next > 0.0 {
+    if share < 0.0 || split.next > 0.0 {
         discard;
     }
     return share;

@@ -25,28 +25,24 @@ fn settled_share(pixel: Pixel, point: MapPoint) -> f32 {
 @fragment
 fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
     let pixel = pixel_at(at.xy);
-    let point = map_point(pixel);
-    if is_settled(pixel, point) {
-        return settled_share(pixel, point);
-    }
-    var share = lit_share(point, pixel);
-    if LAYOUT == SPLITS && BLEND == LERP && point.next > 0.0 {
-        share = mix(share, lit_share(map_point_in(pixel, point.layer + 1u), pixel), point.next);
-    }
-    return select(share, 0.0, share <= OWN_SHADOW);
-}
-
-// The first phase of a look-up in two: all but where splits are mixed. `visibility` is drawn where this one discards.
-@fragment
-fn unmixed_visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
-    let pixel = pixel_at(at.xy);
-    let point = map_point(pixel);
-    if is_settled(pixel, point) {
-        return settled_share(pixel, point);
-    }
-    let share = lit_share(point, pixel);
-    if point.next > 0.0 {
-        discard;
+    let first = point_by_matrix(pixel, 0u);
+    let split = layer_of_pixel(pixel, first);
+    var layer = split.layer;
+    var weight = 1.0 - split.next;
+    var share = 0.0;
+    // Twice where two splits are mixed.
+    loop {
+        var point = map_point(pixel, first, layer);
+        point.is_covered &= split.is_covered;
+        if layer == split.layer && is_settled(pixel, point) {
+            return settled_share(pixel, point);
+        }
+        share += weight * lit_share(point, pixel);
+        if split.next == 0.0 || layer != split.layer {
+            break;
+        }
+        layer += 1u;
+        weight = split.next;
     }
     return select(share, 0.0, share <= OWN_SHADOW);
 }
