@@ -63,6 +63,20 @@ fn every_filter_gives_shares_on_splits_of_every_kind() {
 }
 
 #[test]
+fn every_filter_mixes_splits() {
+    let gpu = gpu();
+    let scene = scene("terrain", 0.25);
+    for filter in filters() {
+        let [alone, mixed] = ["off", "lerp"].map(|blend| {
+            let set = format!("filter={filter},blend={blend}");
+            visibility(&mut renderer(&gpu, &scene, 0, "cascaded", &set, (160, 120)), &scene)
+        });
+        let apart = mae(&alone, &mixed);
+        assert!(apart > 1e-5 && apart < 5e-3, "{filter}: {apart}");
+    }
+}
+
+#[test]
 fn four_splits_err_at_most_half_as_much_as_a_map_of_as_many_texels_each() {
     let gpu = gpu();
     let city = scene("city", 1.0);
