@@ -11,6 +11,7 @@
 
 mod content;
 mod cut;
+mod order;
 
 use crate::bounds::Bounds;
 use glam::DVec3;
@@ -27,6 +28,10 @@ pub struct SceneTree {
     /// By the number of the object.
     entries: Vec<Option<Entry>>,
     len: usize,
+    /// The objects in the order of the nodes, as far as these have a span in it.
+    order: Vec<u32>,
+    /// How often one came or went since that was made.
+    changes: usize,
 }
 
 #[derive(Clone, Debug)]
@@ -50,6 +55,7 @@ struct Node {
     objects: Vec<u32>,
     /// Their boxes, here too since queries go through them in order.
     boxes: Vec<Bounds>,
+    span: order::Span,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -86,7 +92,8 @@ impl SceneTree {
         let usable = can_be_found(&bounds) && center.is_finite() && half > 0.0 && half.is_finite();
         let (center, half) = if usable { (center, half) } else { (bounds.center(), 0.5) };
         let center = if center.is_finite() { center } else { DVec3::ZERO };
-        Self { nodes: vec![Node::new(center, half, 0, ROOT, 0)], entries: Vec::new(), len: 0 }
+        let nodes = vec![Node::new(center, half, 0, ROOT, 0)];
+        Self { nodes, entries: Vec::new(), len: 0, order: Vec::new(), changes: 0 }
     }
 
     /// Adds `object`, or moves it where it is known. One with an empty box, or one that is not finite, is kept but no
@@ -104,6 +111,9 @@ impl SceneTree {
         });
         self.entries[index] = Some(Entry { bounds, place });
         self.len += 1;
+        if let Some(place) = place {
+            self.note_change(place.node);
+        }
     }
 
     /// Takes `object` out by its handle, without a search; an unknown number is no error.
@@ -121,6 +131,7 @@ impl SceneTree {
         }
         self.leave(place.node);
         self.shrink_content(place.node, &entry.bounds);
+        self.note_change(place.node);
     }
 
     /// Moves `object`: no more than storing its box where it still fits its node and would fit no smaller one. An unknown
@@ -173,11 +184,6 @@ impl SceneTree {
                 Side::Inside => self.gather_all(child, found),
             }
         }
-    }
-
-    fn gather_all(&self, node: &Node, found: &mut Vec<u32>) {
-        found.extend(&node.objects);
-        self.occupied_children(node).for_each(|child| self.gather_all(child, found));
     }
 
     fn occupied_children<'a>(&'a self, node: &'a Node) -> impl Iterator<Item = &'a Node> {
@@ -257,7 +263,7 @@ impl Node {
         let bounds = Bounds { min: center - loose, max: center + loose };
         let (bounds, content) = (grown_by_rounding(bounds), Bounds::EMPTY);
         let (children, objects, boxes) = ([ROOT; 8], Vec::new(), Vec::new());
-        Self { center, half, bounds, content, depth, parent, octant, children, occupied: 0, objects, boxes }
+        Self { center, half, bounds, content, depth, parent, octant, children, occupied: 0, objects, boxes, span: None }
     }
 
     fn has_center(&self, point: DVec3) -> bool {

@@ -233,6 +233,7 @@ impl Casters {
                 bystanders.push(place);
             }
         }
+        [&mut casting, &mut receiving].into_iter().for_each(SceneTree::put_in_order);
         Ok(Self {
             origin,
             bind_group,

@@ -89,3 +89,35 @@ fn any_root_box_will_do() {
         assert_eq!(found, [0, 1], "{root:?}");
     }
 }
+
+#[test]
+fn what_is_below_a_node_is_a_slice_until_one_of_it_moves_out() {
+    let mut tree = tree();
+    let at = |i: u32| DVec3::new(f64::from(i % 10), f64::from(i / 10), 0.0) * 10.0 - 45.0;
+    (0..100).for_each(|i| tree.insert(i, cube(at(i), 1.0)));
+    tree.put_in_order();
+    let all_in_order = |tree: &SceneTree| {
+        tree.nodes[1..].iter().filter(|n| !n.is_vacant()).all(|node| {
+            let (mut walked, mut bare) = (Vec::new(), tree.clone());
+            bare.nodes.iter_mut().for_each(|n| n.span = None);
+            bare.gather_all(node, &mut walked);
+            node.span.is_none_or(|[begin, end]| tree.order[begin as usize..end as usize] == walked)
+        })
+    };
+    let spans = |tree: &SceneTree| tree.nodes.iter().filter(|n| n.span.is_some()).count();
+    assert!(tree.nodes.iter().all(|n| n.span.is_some()) && all_in_order(&tree));
+    tree.update(7, cube(at(7) + 0.01, 1.0));
+    assert!(tree.nodes.iter().all(|n| n.span.is_some()), "it has stayed in its node");
+    tree.update(7, cube(at(97), 1.0));
+    assert!(tree.nodes.iter().any(|n| n.span.is_none()) && spans(&tree) > tree.nodes.len() / 2 && all_in_order(&tree));
+    // To nodes that are made for it, below some that have a span.
+    tree.update(7, cube(at(55) + DVec3::Z * 20.0, 0.1));
+    assert!(all_in_order(&tree));
+    // Each comes back, and again; all is put in order from time to time.
+    for i in (0..100).chain(0..100) {
+        tree.remove(i);
+        tree.insert(i, cube(at(i), 1.0));
+        assert!(all_in_order(&tree));
+    }
+    assert!(tree.changes * 4 < tree.len);
+}
