@@ -54,17 +54,31 @@ fn covered_at(at: vec2i) -> f32 {
     return sum;
 }
 
+// The most that shares around a pixel may differ in to be taken for the same.
+const SAME: f32 = 1e-3;
+
+// Shares of the place `first` in the smaller buffer and of those to the right, below and both.
+fn covered_around(first: vec2f, last: vec2i) -> vec4f {
+    let a = clamp(vec2i(first), vec2i(0), last);
+    let b = clamp(vec2i(first) + 1, vec2i(0), last);
+    return vec4f(covered_at(a), covered_at(vec2i(b.x, a.y)), covered_at(vec2i(a.x, b.y)), covered_at(b));
+}
+
 // Between places of the smaller buffer those count that lie in the surface's own plane; where none does, the one that is nearest to it.
+// Where all have the same share, as mostly, that is left at once.
 fn upsampled(pixel: vec2f, p: vec3f, normal: vec3f) -> f32 {
     let scale = f32(light.scale);
     let last = vec2i(textureDimensions(covered)) - 1;
     let place = (floor(pixel) - floor(0.5 * scale)) / scale;
     let first = floor(place);
     let part = place - first;
+    let shares = covered_around(first, last);
+    let least = min(min(shares.x, shares.y), min(shares.z, shares.w));
+    let most = max(max(shares.x, shares.y), max(shares.z, shares.w));
     let n = normalize(normal);
     var sum = vec2f(0.0);
-    var nearest = vec2f(0.0, 1e30);
-    for (var i = 0u; i < 4u; i++) {
+    var nearest = vec2f(least, 1e30);
+    for (var i = 0u; i < 4u && most - least > SAME; i++) {
         let corner = vec2f(vec2u(i & 1u, i >> 1u));
         let at = clamp(vec2i(first + corner), vec2i(0), last);
         let full = full_pixel(light, vec2f(at));
@@ -75,7 +89,7 @@ fn upsampled(pixel: vec2f, p: vec3f, normal: vec3f) -> f32 {
         let way = position_eye(eye, full, depth) - p;
         // From the plane, against what a surface bends over that way.
         let off = abs(dot(n, way)) / (0.05 * length(way) + 1e-4 * length(p));
-        let share = covered_at(at);
+        let share = shares[i];
         let sides = mix(1.0 - part, part, corner);
         let weight = sides.x * sides.y * max(1.0 - off, 0.0);
         sum += weight * vec2f(share, 1.0);
