@@ -84,6 +84,21 @@ fn shadows_of_pictures_are_right() {
     }
 }
 
+/// The plate looks the same from everywhere on the light, so pieces, each with its part of the picture, have to give what the whole does.
+#[test]
+fn pieces_of_pictures_add_up_to_them() {
+    let gpu = gpu();
+    for (name, picture) in pictures() {
+        let scene = under(picture, DVec3::new(0.6, 4.0, 0.4), DVec3::new(0.2, -1.0, 0.1).normalize(), DVec3::Z);
+        let [hard, whole, four, nine] =
+            [("volume", ""), ("wedges", ""), ("wedges", "split-light=2"), ("wedges", "split-light=3")]
+                .map(|(id, set)| against_truth(&gpu, &scene, 0, id, set, SIZE, 1024).rmse);
+        let of_hard = [whole, four, nine].map(|error| error / hard);
+        println!("{name}: {of_hard:.4?} of the hard shadow's {hard:.4}");
+        assert!(of_hard.into_iter().all(|share| share < 0.03), "{name}: {of_hard:?}");
+    }
+}
+
 /// Half of the picture is below the floor, and what is depends on the place.
 #[test]
 fn a_picture_below_the_horizon_is_hidden() {

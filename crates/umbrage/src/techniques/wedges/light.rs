@@ -182,7 +182,8 @@ impl Form {
         }
     }
 
-    /// The light cut into `count` times `count` pieces, a line into `count`. A light without extent is one piece, and so is a picture.
+    /// The light cut into `count` times `count` pieces, a line into `count`. A light without extent is one piece. Those of a picture come row by
+    /// row, as bright as an even light's.
     pub fn pieces(&self, count: usize) -> Vec<Self> {
         let [x, y, _] = self.half;
         let of = count as f64;
@@ -190,12 +191,11 @@ impl Form {
         let moved = |way: DVec3| self.center.truncate() + way;
         match self.face {
             _ if count <= 1 || self.is_point() => vec![*self],
-            Face::Picture => vec![*self],
             Face::Ball | Face::Disc => Cell::grid(count).into_iter().map(|cell| self.piece(cell)).collect(),
             Face::Line => {
                 (0..count).map(|i| Self { weight: 1.0 / of, ..Self::line(moved(x * at(i)), x / of) }).collect()
             }
-            Face::Square => (0..count * count)
+            Face::Square | Face::Picture => (0..count * count)
                 .map(|i| moved(x * at(i % count) + y * at(i / count)))
                 .map(|center| Self { weight: 1.0 / (of * of), ..Self::flat(self.face, center, x / of, y / of) })
                 .collect(),
@@ -336,10 +336,13 @@ mod tests {
         ];
         for shape in shapes {
             for count in 1..=3 {
-                let pieces = Form::of(&shape, false, 0.0).pieces(count);
-                let whole: f64 = pieces.iter().map(|p| p.weight).sum();
-                assert!((whole - 1.0).abs() < 1e-12, "{shape:?} {count}: {whole}");
-                assert_eq!(pieces.len(), if matches!(shape, LightShape::Line { .. }) { count } else { count * count });
+                for has_picture in [false, true] {
+                    let pieces = Form::of(&shape, has_picture, 0.0).pieces(count);
+                    let whole: f64 = pieces.iter().map(|p| p.weight).sum();
+                    assert!((whole - 1.0).abs() < 1e-12, "{shape:?} {count}: {whole}");
+                    let expected = if matches!(shape, LightShape::Line { .. }) { count } else { count * count };
+                    assert_eq!(pieces.len(), expected);
+                }
             }
         }
     }

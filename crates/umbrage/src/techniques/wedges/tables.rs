@@ -58,6 +58,9 @@ const DISC_SIDE: usize = 32;
 /// up to 0.011 and 32, three times as large and as slow to make, by up to 0.007; a test in the core crate prints them.
 const PICTURE_SIDE: usize = 24;
 
+/// The same of a piece, which has fewer details and a part of the light: 0.13 MB.
+const PIECE_SIDE: usize = 16;
+
 /// Where the share that an edge covers comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Term {
@@ -110,6 +113,14 @@ pub(super) struct Tables {
 struct Picture {
     of: Texture,
     table: Option<wgpu::BindGroup>,
+    /// Of a split light, row by row.
+    pieces: Vec<PicturePiece>,
+}
+
+/// A part of a picture: its share of all light, and its own table if there is any.
+struct PicturePiece {
+    weight: f64,
+    table: Option<wgpu::BindGroup>,
 }
 
 impl Tables {
@@ -119,12 +130,12 @@ impl Tables {
         Self { for_discs, nothing, disc: None, picture: None }
     }
 
-    /// Makes the table that a light needs, a picture's once for as long as it shows the same. True where it shows one; a black one, as
-    /// none, is an even light.
-    pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> bool {
+    /// Makes the table that a light needs, a picture's once for as long as it shows the same, with one for each of `split` times `split` pieces. True
+    /// where it shows one; a black one, as none, is an even light.
+    pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, split: usize) -> bool {
         if let LightShape::Rect { texture, .. } = view.light.shape {
             let shown = texture.and_then(|index| view.textures.get(index));
-            return shown.is_some_and(|texture| self.prepare_picture(gpu, texture));
+            return shown.is_some_and(|texture| self.prepare_picture(gpu, texture, split));
         }
         if self.for_discs && self.disc.is_none() {
             let table = SphereTable::new(DISC_SIDE);
@@ -136,12 +147,18 @@ impl Tables {
         false
     }
 
-    fn prepare_picture(&mut self, gpu: &Gpu, texture: &Texture) -> bool {
+    fn prepare_picture(&mut self, gpu: &Gpu, texture: &Texture, split: usize) -> bool {
         // Whether it is the same is asked of its pixels, since hosts may change them where they are.
         if self.picture.as_ref().is_none_or(|p| p.of != *texture) {
-            let table = Luminance::of(texture).and_then(|light| table_of(&light));
-            let table = table.map(|table| upload(gpu, &table));
-            self.picture = Some(Picture { of: texture.clone(), table });
+            let light = Luminance::of(texture);
+            let of = |part: &Part, side| light.as_ref().and_then(|light| table_of(light, part, side));
+            let made = |part: &Part, side| of(part, side).map(|table| upload(gpu, &table));
+            let piece = |part: Part| PicturePiece {
+                weight: light.as_ref().map_or(0.0, |light| light.within(part.low, part.high)),
+                table: made(&part, PIECE_SIDE),
+            };
+            let pieces = if split > 1 { parts(split).map(piece).collect() } else { Vec::new() };
+            self.picture = Some(Picture { of: texture.clone(), table: made(&Part::WHOLE, PICTURE_SIDE), pieces });
         }
         self.picture.as_ref().is_some_and(|p| p.table.is_some())
     }
@@ -170,18 +187,50 @@ impl Tables {
         made.unwrap_or(&self.nothing)
     }
 
+    /// Of a split light the group of its piece of this number; that of a dark one of a picture is never seen.
+    pub fn group_of_piece(&self, term: Term, number: usize) -> &wgpu::BindGroup {
+        let piece = self.picture.as_ref().and_then(|p| p.pieces.get(number)).filter(|_| term == Term::Picture);
+        piece.and_then(|piece| piece.table.as_ref()).unwrap_or(self.group(term))
+    }
+
+    /// The share of a picture's light that a piece of it gives; `None` where there is no such piece.
+    pub fn weight_of_piece(&self, number: usize) -> Option<f64> {
+        self.picture.as_ref()?.pieces.get(number).map(|piece| piece.weight)
+    }
+
     /// Bytes of the textures.
     pub fn bytes(&self) -> u64 {
         let values = |is_made, count: usize| if is_made { count } else { 0 };
         let has_picture = self.picture.as_ref().is_some_and(|p| p.table.is_some());
-        let count = values(self.disc.is_some(), 2 * DISC_SIDE.pow(3)) + values(has_picture, PICTURE_SIDE.pow(4));
+        let pieces = self.picture.iter().flat_map(|p| &p.pieces).filter(|p| p.table.is_some()).count();
+        let count = values(self.disc.is_some(), 2 * DISC_SIDE.pow(3))
+            + values(has_picture, PICTURE_SIDE.pow(4))
+            + pieces * PIECE_SIDE.pow(4);
         (count * size_of::<f16>()) as u64
     }
 }
 
-fn table_of(light: &Luminance) -> Option<TexturedTable> {
-    let on_picture = |p: [f64; 2]| DVec2::from(p) * 0.5 + 0.5;
-    TexturedTable::new(|low, high| light.within(on_picture(low), on_picture(high)), PICTURE_SIDE)
+/// A rectangle of a picture, which is from 0 to 1.
+struct Part {
+    low: DVec2,
+    high: DVec2,
+}
+
+impl Part {
+    const WHOLE: Self = Self { low: DVec2::ZERO, high: DVec2::ONE };
+}
+
+/// `count` times `count` of them, row by row.
+fn parts(count: usize) -> impl Iterator<Item = Part> {
+    (0..count * count).map(move |i| {
+        let at = |step: usize| DVec2::new((i % count + step) as f64, (i / count + step) as f64) / count as f64;
+        Part { low: at(0), high: at(1) }
+    })
+}
+
+fn table_of(light: &Luminance, part: &Part, side: usize) -> Option<TexturedTable> {
+    let on_picture = |p: [f64; 2]| part.low + (part.high - part.low) * (DVec2::from(p) * 0.5 + 0.5);
+    TexturedTable::new(|low, high| light.within(on_picture(low), on_picture(high)), side)
 }
 
 fn upload(gpu: &Gpu, table: &TexturedTable) -> wgpu::BindGroup {

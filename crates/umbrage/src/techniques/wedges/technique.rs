@@ -2,6 +2,7 @@
 
 use super::budget::Budget;
 use super::draws::Draw;
+use super::light::Face;
 use super::light::Form;
 use super::light::Frame;
 use super::mask::Mask;
@@ -99,7 +100,10 @@ impl Wedges {
     fn choose(&mut self, gpu: &Gpu, view: &View<'_>, form: &Form) -> Result<(), Error> {
         let forms = form.pieces(self.options.split);
         self.pieces.truncate(forms.len());
-        for (i, form) in forms.into_iter().enumerate() {
+        for (i, mut form) in forms.into_iter().enumerate() {
+            if let Some(weight) = self.tables.weight_of_piece(i).filter(|_| form.face == Face::Picture) {
+                form.weight = weight;
+            }
             match self.pieces.get_mut(i) {
                 Some(piece) => piece.form = form,
                 None => self.pieces.push(Piece::new(gpu, form, &self.options)),
@@ -190,7 +194,7 @@ impl Wedges {
             let apart = self.apart.iter().find(|(s, c, _)| Some(s) == target.apart.as_ref() && *c == buffers.eye_count);
             let apart = apart.map(|(.., group)| group);
             let (options, body_indices) = (&self.options, &self.body_indices);
-            let tables = self.tables.group(piece.term);
+            let tables = self.tables.group_of_piece(piece.term, i);
             let recording = Recording { options, pipelines, target, body_indices, tables, apart };
             piece.build(passes, view, edges, &recording);
             if i == 0 {
@@ -229,7 +233,7 @@ impl Wedges {
             indices: &self.body_indices,
             key: Key { depth: compared_depth(view), ..piece.key(view, Draw::Bodies, target) },
             bundles: self.options.bundles(),
-            tables: self.tables.group(piece.term),
+            tables: self.tables.group_of_piece(piece.term, 0),
             layout: &self.pipelines.as_ref()?.draw_layout,
             shares: (resolve, &target.resolve, &self.pipelines.as_ref()?.resolve_layout),
         })
@@ -321,7 +325,7 @@ impl Technique for Wedges {
             return Err(Error::Unsupported { technique: super::INFO.id.into(), what });
         }
         // Masks have the picture in their samples.
-        let has_picture = !self.is_masked() && self.tables.prepare(gpu, view);
+        let has_picture = !self.is_masked() && self.tables.prepare(gpu, view, self.options.split);
         let mut form = Form::of(&view.light.shape, has_picture, self.options.point_radius);
         if form.is_point() && is_on_a_caster(gpu, view, form.center)? {
             form = form.off_ties(view.rounding());
