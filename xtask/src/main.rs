@@ -2,6 +2,7 @@
 
 mod bench;
 mod demo;
+mod docs;
 mod setup;
 mod shell;
 mod tables;
@@ -18,7 +19,13 @@ cargo xtask COMMAND
   test    run the whole test suite
   bench   measure the standard set of scenes and write benchmarks/<date>-<machine>/
   tables za|fe|px
-          measure the tables of three theses again: filtered and soft maps (za), splits (fe), wedges (px); write maps/, splits/ or loops/ there";
+          measure the tables of three theses again: filtered and soft maps (za), splits (fe), wedges (px);
+          write maps/, splits/ or loops/ there
+  docs    write the generated tables of README.md and of the techniques' pages
+  docs --pictures
+          render the pictures of README.md again
+  docs --numbers
+          measure the numbers of README.md again, then write the tables";
 
 fn main() -> ExitCode {
     match run() {
@@ -38,6 +45,9 @@ fn run() -> Result<()> {
         ["demo"] => demo::run(),
         ["test", rest @ ..] => test::run(rest),
         ["bench"] => bench::run(),
+        ["docs"] => docs::tables(),
+        ["docs", "--pictures"] => docs::pictures(),
+        ["docs", "--numbers"] => docs::numbers(),
         ["tables", "za"] => tables::za::run(),
         ["tables", "fe"] => tables::fe::run(),
         ["tables", "px"] => tables::px::run(),

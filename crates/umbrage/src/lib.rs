@@ -27,6 +27,11 @@
 //! # Ok(()) }
 //! ```
 
+/// The example in the project's README is compiled with the tests of the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
+
 pub mod baseline;
 mod casters;
 mod depth_maps;

@@ -1,7 +1,7 @@
-//! The registry holds together, and each technique's README says what its parameters are. Needs no GPU.
+//! The registry holds together. Needs no GPU.
 
 use std::collections::HashSet;
-use umbrage::{Param, ParamKind, find, techniques};
+use umbrage::{ParamKind, find, techniques};
 
 #[test]
 fn ids_are_unique_and_match_their_folders() {
@@ -17,17 +17,10 @@ fn ids_are_unique_and_match_their_folders() {
     }
 }
 
-fn row(p: &Param) -> String {
-    format!("| `{}` | {} | {} | {} |", p.name, p.kind.range(), p.kind.default(), p.unit).replace(" |  |", " | |")
-}
-
 #[test]
-fn readmes_state_every_parameter() {
+fn readmes_begin_with_their_technique() {
     for info in techniques() {
         assert!(info.readme.starts_with(&format!("# `{}`", info.id)), "{}: heading", info.id);
-        for p in info.params {
-            assert!(info.readme.contains(&row(p)), "the README of {} lacks the row\n{}", info.id, row(p));
-        }
     }
 }
 

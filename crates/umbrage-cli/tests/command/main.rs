@@ -2,7 +2,7 @@
 
 mod broken_input;
 mod common;
+mod docs;
 mod listing;
 mod pictures;
-mod readme;
 mod sweep;
