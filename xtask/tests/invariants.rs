@@ -79,8 +79,22 @@ fn reference_and_metrics_know_no_gpu() {
 fn the_library_knows_no_window_no_command_line_and_no_file_format() {
     let metadata = metadata();
     let library = direct(package(&metadata, "umbrage"));
-    let others = ["umbrage-io", "umbrage-report", "umbrage-cli", "umbrage-reference", "umbrage-metrics"];
+    let others =
+        ["umbrage-io", "umbrage-report", "umbrage-cli", "umbrage-reference", "umbrage-metrics", "umbrage-renderer"];
     assert_none("umbrage", &library, &[WINDOW, FILES, &["serde", "serde_json"], &others].concat());
+}
+
+#[test]
+fn the_renderer_knows_no_window_no_command_line_and_no_file_format() {
+    let metadata = metadata();
+    let renderer = direct(package(&metadata, "umbrage-renderer"));
+    let others = ["umbrage-io", "umbrage-report", "umbrage-cli", "umbrage-reference", "umbrage-metrics"];
+    assert_none("umbrage-renderer", &renderer, &[WINDOW, FILES, &["serde", "serde_json"], &others].concat());
+    for (path, text) in sources("crates/umbrage-renderer/src") {
+        for word in ["std::fs", "std::net", "std::env", "std::process"] {
+            assert!(!text.contains(word), "{path} uses {word}");
+        }
+    }
 }
 
 #[test]

@@ -17,9 +17,10 @@ use crate::{
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
-use umbrage::{Gpu, LightPass, Renderer, Technique, baseline};
+use umbrage::{Gpu, Technique, baseline};
 use umbrage_core::{Camera, LightKind};
 use umbrage_reference::Tracer;
+use umbrage_renderer::{LightPass, Renderer};
 
 /// What to measure, and how.
 #[derive(Clone, Debug)]

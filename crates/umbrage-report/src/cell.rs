@@ -11,12 +11,13 @@ use crate::{
     truth::{Tracing, Truth},
 };
 use std::{collections::BTreeMap, time::Duration};
-use umbrage::{Gpu, LightPass, Renderer, Technique};
+use umbrage::{Gpu, Technique};
 use umbrage_core::Image;
 use umbrage_metrics::{
     Comparison, Scores, aliasing, around_borders, footprint_colors, heat, reach_of, score, seam, texel_footprint,
 };
 use umbrage_reference::Geometry;
+use umbrage_renderer::{LightPass, Renderer};
 
 /// What all techniques on one light share.
 pub(crate) struct Cell<'a> {

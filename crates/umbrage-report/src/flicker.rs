@@ -1,10 +1,10 @@
 //! What changes at fixed points of the scene while the camera moves: in each technique, and in the truth.
 
 use crate::{error::Error, source::Source};
-use umbrage::Renderer;
 use umbrage_core::{Camera, Image, Light, glam::Vec3};
 use umbrage_metrics::{FixedPoint, Flicker, Frame, fixed_points};
 use umbrage_reference::{Options, Tracer};
+use umbrage_renderer::Renderer;
 
 /// Share of the distance by which the ray tracer may see a surface elsewhere than the rasteriser.
 const SAME_DEPTH: f64 = 1e-3;

@@ -2,8 +2,9 @@
 
 use crate::spread::Spread;
 use std::time::{Duration, Instant};
-use umbrage::{Error, PassTime, Renderer};
+use umbrage::{Error, PassTime};
 use umbrage_core::Camera;
+use umbrage_renderer::Renderer;
 
 /// What some frames of one renderer took.
 #[derive(Clone, Debug, Default)]

@@ -3,9 +3,10 @@
 use crate::error::Error;
 use serde::Serialize;
 use std::{f64::consts::TAU, str::FromStr};
-use umbrage::{Gpu, Renderer};
+use umbrage::Gpu;
 use umbrage_core::glam::{DAffine3, DVec3};
 use umbrage_core::{Bounds, Camera, Instance, LightShape, Scene};
+use umbrage_renderer::Renderer;
 
 /// What moves from frame to frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -166,8 +167,8 @@ fn moved(shape: &LightShape, [x, z]: [f64; 2], scene_radius: f64) -> LightShape 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use umbrage::LightPass;
     use umbrage_core::scenes;
+    use umbrage_renderer::LightPass;
 
     #[test]
     fn names_are_read_and_mistakes_named() {

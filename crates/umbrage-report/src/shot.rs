@@ -5,10 +5,11 @@ use crate::{
     truth::Tracing,
 };
 use std::path::Path;
-use umbrage::{DebugView, Gpu, LightPass, Renderer, Technique};
+use umbrage::{DebugView, Gpu, Technique};
 use umbrage_core::{Image, Light};
 use umbrage_io::pictures;
 use umbrage_reference::Truth;
+use umbrage_renderer::{LightPass, Renderer};
 
 /// What a picture shows.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,20 +3,24 @@
 use crate::gpu::Gpu;
 
 /// What full-screen pipelines differ in. The vertex shader is `wgsl/fullscreen.wgsl`.
-pub(crate) struct Fullscreen<'a> {
-    pub(crate) label: &'a str,
-    pub(crate) module: &'a wgpu::ShaderModule,
+pub struct Fullscreen<'a> {
+    /// For messages of the driver.
+    pub label: &'a str,
+    /// The shader, with `wgsl/fullscreen.wgsl` in it.
+    pub module: &'a wgpu::ShaderModule,
     /// The fragment shader.
-    pub(crate) entry: &'a str,
+    pub entry: &'a str,
     /// Bind groups in order.
-    pub(crate) groups: &'a [&'a wgpu::BindGroupLayout],
-    pub(crate) target: wgpu::ColorTargetState,
+    pub groups: &'a [&'a wgpu::BindGroupLayout],
+    /// Format of the target, and how it is blended.
+    pub target: wgpu::ColorTargetState,
     /// Pipeline-overridable constants.
-    pub(crate) constants: &'a [(&'a str, f64)],
+    pub constants: &'a [(&'a str, f64)],
 }
 
 impl Fullscreen<'_> {
-    pub(crate) fn pipeline(&self, gpu: &Gpu) -> wgpu::RenderPipeline {
+    /// One without depth and stencil.
+    pub fn pipeline(&self, gpu: &Gpu) -> wgpu::RenderPipeline {
         self.with_stencil(gpu, None)
     }
 
@@ -58,7 +62,7 @@ impl Fullscreen<'_> {
 }
 
 /// A target that adds what is drawn to what is there.
-pub(crate) fn additive(format: wgpu::TextureFormat) -> wgpu::ColorTargetState {
+pub fn additive(format: wgpu::TextureFormat) -> wgpu::ColorTargetState {
     let add = wgpu::BlendComponent {
         src_factor: wgpu::BlendFactor::One,
         dst_factor: wgpu::BlendFactor::One,
@@ -68,7 +72,7 @@ pub(crate) fn additive(format: wgpu::TextureFormat) -> wgpu::ColorTargetState {
 }
 
 /// A colour attachment over a whole view.
-pub(crate) fn attachment(
+pub fn attachment(
     view: &wgpu::TextureView,
     load: wgpu::LoadOp<wgpu::Color>,
 ) -> Option<wgpu::RenderPassColorAttachment<'_>> {
@@ -77,7 +81,7 @@ pub(crate) fn attachment(
 }
 
 /// A texture to draw into, to read in shaders and to copy from; `layers` over 1 make an array.
-pub(crate) fn target_texture(
+pub fn target_texture(
     gpu: &Gpu,
     label: &str,
     (width, height): (u32, u32),
@@ -99,7 +103,7 @@ pub(crate) fn target_texture(
 }
 
 /// A layout whose bindings are numbered from 0 in order, for the given stages.
-pub(crate) fn layout(
+pub fn layout(
     gpu: &Gpu,
     label: &str,
     visibility: wgpu::ShaderStages,
@@ -113,7 +117,7 @@ pub(crate) fn layout(
 }
 
 /// A bind group of such a layout.
-pub(crate) fn bind(
+pub fn bind(
     gpu: &Gpu,
     label: &str,
     layout: &wgpu::BindGroupLayout,
@@ -127,16 +131,16 @@ pub(crate) fn bind(
 }
 
 /// A two-dimensional texture of this sample type.
-pub(crate) fn texture(sample_type: wgpu::TextureSampleType) -> wgpu::BindingType {
+pub fn texture(sample_type: wgpu::TextureSampleType) -> wgpu::BindingType {
     let view_dimension = wgpu::TextureViewDimension::D2;
     wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false }
 }
 
 /// A float texture that is read texel by texel.
-pub(crate) const FLOATS: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { filterable: false };
+pub const FLOATS: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { filterable: false };
 
 /// A uniform buffer.
-pub(crate) const UNIFORM: wgpu::BindingType = wgpu::BindingType::Buffer {
+pub const UNIFORM: wgpu::BindingType = wgpu::BindingType::Buffer {
     ty: wgpu::BufferBindingType::Uniform,
     has_dynamic_offset: false,
     min_binding_size: None,

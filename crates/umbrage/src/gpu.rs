@@ -156,12 +156,7 @@ impl Gpu {
     }
 
     /// A buffer that holds `data`, padded to a multiple of 16 bytes and never empty.
-    pub(crate) fn buffer<T: bytemuck::NoUninit>(
-        &self,
-        label: &str,
-        data: &[T],
-        usage: wgpu::BufferUsages,
-    ) -> wgpu::Buffer {
+    pub fn buffer<T: bytemuck::NoUninit>(&self, label: &str, data: &[T], usage: wgpu::BufferUsages) -> wgpu::Buffer {
         let mut contents = bytemuck::cast_slice::<T, u8>(data).to_vec();
         contents.resize(contents.len().next_multiple_of(16).max(16), 0);
         let descriptor = wgpu::util::BufferInitDescriptor { label: Some(label), contents: &contents, usage };

@@ -36,15 +36,14 @@ pub mod baseline;
 mod casters;
 mod depth_maps;
 mod error;
-mod fullscreen;
+pub mod fullscreen;
 mod gpu;
 mod light_samples;
 mod moment_maps;
 mod params;
 mod passes;
-mod read;
+pub mod read;
 mod receivers;
-mod renderer;
 mod shader;
 mod silhouettes;
 mod technique;
@@ -52,15 +51,15 @@ mod techniques;
 mod view;
 mod visibility;
 
-pub use casters::Casters;
+pub use casters::{Casters, SeenCasters};
+pub use depth_maps::Eye;
 pub use error::{Error, nearest};
 pub use gpu::{AdapterSummary, Gpu};
 pub use light_samples::light_samples;
 pub use params::{Param, ParamKind, Settings, Value};
 pub use passes::{PassTime, Passes, Recorder};
 pub use receivers::Receivers;
-pub use renderer::{LightPass, Renderer};
-pub use shader::{HostLayout, PACK_NORMAL, Shader};
+pub use shader::{HostLayout, Shader};
 pub use technique::{DebugView, Make, Stats, Technique, TechniqueInfo};
 pub use techniques::{find, techniques};
 
@@ -68,13 +67,13 @@ pub use umbrage_core as core;
 pub use view::View;
 pub use visibility::VisibilityTarget;
 
-/// Every shader of the library: those of the techniques, the adaptor, poses, the baselines and the renderer.
+/// WGSL that passes of a host may share with the library.
+pub mod wgsl {
+    pub use crate::shader::{FULLSCREEN, PACK_NORMAL, RECEIVERS};
+}
+
+/// Every shader of the library: those of the techniques, the adaptor, poses and the baselines.
 pub fn shaders() -> Vec<Shader> {
     let own = techniques().iter().flat_map(|t| t.shaders);
-    own.chain([&light_samples::SHADER])
-        .chain(casters::SHADERS)
-        .chain(baseline::SHADERS)
-        .chain(renderer::SHADERS)
-        .copied()
-        .collect()
+    own.chain([&light_samples::SHADER]).chain(casters::SHADERS).chain(baseline::SHADERS).copied().collect()
 }

@@ -1,18 +1,26 @@
 //! Pictures back from the GPU. For files and tests; waits for the device.
+//!
+//! All of them give [`Error::DeviceLost`] and [`Error::Driver`].
 
 use crate::{error::Error, gpu::Gpu};
 use half::f16;
 use umbrage_core::Image;
 use umbrage_core::glam::Vec3;
 
-/// 8-bit colour.
-pub(crate) fn rgba8(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[u8; 4]>, Error> {
+/// 8-bit colour, as it is stored.
+///
+/// # Errors
+/// See the module.
+pub fn rgba8(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[u8; 4]>, Error> {
     let bytes = rows(gpu, texture, 0)?;
     Ok(image(texture, bytes.as_chunks::<4>().0.to_vec()))
 }
 
-/// Depth or a single float channel, full or half.
-pub(crate) fn one_channel(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Result<Image<f32>, Error> {
+/// Depth or a single float channel, full or half, of a layer.
+///
+/// # Errors
+/// See the module; [`Error::Driver`] for a format of another kind, too.
+pub fn one_channel(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Result<Image<f32>, Error> {
     let bytes = rows(gpu, texture, layer)?;
     let data = match texture.format() {
         wgpu::TextureFormat::R16Float => halves(&bytes),
@@ -26,8 +34,11 @@ pub(crate) fn one_channel(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Res
     Ok(image(texture, data))
 }
 
-/// Unit vectors that the shader's `pack_normal` packed.
-pub(crate) fn packed_normals(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[f32; 3]>, Error> {
+/// Unit vectors that `pack_normal` packed, see [`crate::wgsl::PACK_NORMAL`].
+///
+/// # Errors
+/// See the module.
+pub fn packed_normals(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[f32; 3]>, Error> {
     let bytes = rows(gpu, texture, 0)?;
     let unpack = |b: &[u8; 4]| {
         let part = |low, high| f32::from(i16::from_le_bytes([low, high])).max(-32767.0) / 32767.0;

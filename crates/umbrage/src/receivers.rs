@@ -8,7 +8,7 @@ use crate::gpu::Gpu;
 /// Depth has 24 bits or floats and one sample a pixel; of a format with stencil, the view is of the depth alone. All
 /// surfaces in it that shadows should fall on have to be among the [`crate::Casters`], those that throw none too: maps are
 /// fitted to them. Normals are `R32Uint`: the geometric normal in world space,
-/// turned to the eye, packed by the function in [`crate::PACK_NORMAL`]. Without them normals come from the depth itself, which
+/// turned to the eye, packed by the function in [`crate::wgsl::PACK_NORMAL`]. Without them normals come from the depth itself, which
 /// costs a little and is less exact at the edges of surfaces.
 #[derive(Clone, Debug)]
 pub struct Receivers {
@@ -43,8 +43,13 @@ impl Receivers {
         self
     }
 
-    /// Layout of the bind group that `wgsl/receivers.wgsl` declares as group 0.
-    pub(crate) fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    /// Depth and normals, as [`crate::wgsl::RECEIVERS`] declares them in group 0.
+    pub fn bind_group(&self) -> &wgpu::BindGroup {
+        &self.bind_group
+    }
+
+    /// Layout of [`Receivers::bind_group`].
+    pub fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
         let bindings = [wgpu::TextureSampleType::Depth, wgpu::TextureSampleType::Uint].map(fullscreen::texture);
         let stages = wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE;
         fullscreen::layout(gpu, "receivers", stages, &bindings)

@@ -86,16 +86,22 @@ pub struct HostLayout {
     pub size: usize,
 }
 
-/// Declares a struct that a shader reads, together with its [`HostLayout`].
+/// Declares a struct that a shader reads, together with its [`HostLayout`], the constant `LAYOUT`. The crate that uses this
+/// depends on `bytemuck` with its feature `derive`.
+#[macro_export]
 macro_rules! shader_struct {
-    ($(#[$doc:meta])* pub(crate) struct $name:ident { $($(#[$field_doc:meta])* $field:ident: $type:ty,)* }) => {
+    (
+        $(#[$doc:meta])*
+        $vis:vis struct $name:ident { $($(#[$field_doc:meta])* $field:ident: $type:ty,)* }
+    ) => {
         $(#[$doc])*
         #[repr(C)]
         #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-        pub(crate) struct $name { $($(#[$field_doc])* pub $field: $type,)* }
+        $vis struct $name { $($(#[$field_doc])* pub $field: $type,)* }
 
         impl $name {
-            pub(crate) const LAYOUT: $crate::shader::HostLayout = $crate::shader::HostLayout {
+            /// What a test compares with the WGSL struct of the same name.
+            $vis const LAYOUT: $crate::HostLayout = $crate::HostLayout {
                 name: stringify!($name),
                 members: &[$((stringify!($field), std::mem::offset_of!($name, $field), size_of::<$type>()),)*],
                 size: size_of::<$name>(),

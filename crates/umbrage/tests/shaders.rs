@@ -1,7 +1,12 @@
 //! Every shader is valid WGSL and agrees with the host about the structs they share. Needs no GPU.
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use umbrage::{HostLayout, shaders};
+use umbrage::{HostLayout, Shader};
+
+/// Those of the library, and of the renderer that is built on it.
+fn shaders() -> impl Iterator<Item = Shader> {
+    umbrage::shaders().into_iter().chain(umbrage_renderer::SHADERS.iter().copied())
+}
 
 fn parse(source: &str, name: &str) -> naga::Module {
     naga::front::wgsl::parse_str(source).unwrap_or_else(|e| panic!("{name}: {}", e.emit_to_string(source)))

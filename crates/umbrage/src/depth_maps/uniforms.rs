@@ -20,11 +20,15 @@ shader_struct! {
 }
 
 shader_struct! {
-    /// How to get from a pixel to the surface it shows.
-    pub(crate) struct Eye {
+    /// How to get from a pixel to the surface it shows, see `wgsl/receivers.wgsl`.
+    pub struct Eye {
+        /// The camera's normalised device coordinates to space relative to the eye, homogeneous.
         eye_from_ndc: [[f32; 4]; 4],
+        /// What a pixel is across and down.
         ndc_from_pixel: [f32; 2],
+        /// What the depth buffer holds where nothing was drawn.
         background_depth: f32,
+        /// The largest |x| + |y| + |z| of `eye_from_ndc` in the picture, before the division by w.
         reach: f32,
     }
 }
@@ -105,7 +109,7 @@ impl MapView {
 
 impl Eye {
     /// For the camera and size of `view`.
-    pub(crate) fn new(view: &View<'_>) -> Self {
+    pub fn new(view: &View<'_>) -> Self {
         let (width, height) = view.receivers.size;
         let eye_from_ndc = view.clip_from_eye().inverse();
         let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];

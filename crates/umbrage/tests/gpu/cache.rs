@@ -3,7 +3,8 @@
 use crate::common::{gpu, pairs, scene};
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Camera, LightShape, Scene};
-use umbrage::{Casters, Gpu, LightPass, Receivers, Recorder, Renderer, View, VisibilityTarget, find};
+use umbrage::{Casters, Gpu, Receivers, Recorder, View, VisibilityTarget, find};
+use umbrage_renderer::{LightPass, Renderer};
 
 /// The same scene with maps that are kept and with maps that are not.
 struct Pair {

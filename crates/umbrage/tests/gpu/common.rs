@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 use umbrage::core::{Image, Scene};
-use umbrage::{Gpu, LightPass, Renderer, find};
+use umbrage::{Gpu, find};
 use umbrage_metrics::{Comparison, Scores, discontinuities, map_reach, score};
 use umbrage_reference::{Geometry, Options, Tracer, Truth};
+use umbrage_renderer::{LightPass, Renderer};
 
 /// The best adapter. Without one these tests fail and say how to get one.
 pub fn gpu() -> Gpu {

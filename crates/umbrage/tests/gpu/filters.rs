@@ -4,10 +4,11 @@ use crate::common::{against_truth, gpu, mask, pairs, renderer, scene, visibility
 use crate::shared_references::{self, size, stored};
 use umbrage::core::glam::{DMat3, DVec2, DVec3, Vec3};
 use umbrage::core::{Image, Light, LightShape, Mesh, Scene};
-use umbrage::{Gpu, ParamKind, Renderer, TechniqueInfo, techniques};
+use umbrage::{Gpu, ParamKind, TechniqueInfo, techniques};
 use umbrage_io::stored::StoredReference;
 use umbrage_metrics::{TOLERANCE, interior, map_reach};
 use umbrage_reference::{Options, Tracer};
+use umbrage_renderer::Renderer;
 
 const SMALL: (u32, u32) = (64, 48);
 

@@ -4,8 +4,9 @@ use crate::common::{gpu, pairs, visibility};
 use std::f64::consts::FRAC_PI_2;
 use umbrage::core::glam::{DAffine3, DMat3, DVec2, DVec3};
 use umbrage::core::{Camera, Light, LightShape, Material, Scene, primitive};
-use umbrage::{Gpu, LightPass, Renderer, Technique, find, light_samples};
+use umbrage::{Gpu, Technique, find, light_samples};
 use umbrage_reference::closed_form::{disc_above_plane, past_half_plane, rect_above_plane, sphere_above_plane};
+use umbrage_renderer::{LightPass, Renderer};
 
 /// The picture: columns go across the edge, rows along it, and the penumbra is a quarter of the columns wide.
 const COLUMNS: u32 = 256;

@@ -3,7 +3,8 @@
 use crate::common::{gpu, pairs, renderer, scene, visibility};
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Camera, Light, LightKind, LightShape, Material, Mesh, Scene, primitive};
-use umbrage::{Error, LightPass, Renderer, find, light_samples, techniques};
+use umbrage::{Error, find, light_samples, techniques};
+use umbrage_renderer::{LightPass, Renderer};
 
 /// A box over a floor under one light.
 fn box_scene(shape: LightShape) -> Scene {

@@ -2,10 +2,11 @@
 
 use crate::common::{gpu, pairs, renderer, shared, visibility};
 use umbrage::core::{Image, Scene};
-use umbrage::{Gpu, LightPass, Renderer, find, light_samples};
+use umbrage::{Gpu, find, light_samples};
 use umbrage_io::stored::{StoredReference, list};
 use umbrage_metrics::{Comparison, Scores, discontinuities, map_reach, score};
 use umbrage_reference::{Options, Tracer};
+use umbrage_renderer::{LightPass, Renderer};
 
 fn scores(mut renderer: Renderer, scene: &Scene, stored: &StoredReference, hard: Option<&Image<f32>>) -> Scores {
     let produced = visibility(&mut renderer, scene);

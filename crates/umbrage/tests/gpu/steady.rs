@@ -1,7 +1,8 @@
 //! The frame loop makes nothing: no pipeline, view, buffer or bind group after the first frames.
 
 use crate::common::{gpu, pairs, scene};
-use umbrage::{LightPass, Renderer, find, light_samples, techniques};
+use umbrage::{find, light_samples, techniques};
+use umbrage_renderer::{LightPass, Renderer};
 
 /// Objects alive on the device. Upload memory goes round in a ring that is full after a few frames.
 pub fn alive(gpu: &umbrage::Gpu) -> Vec<(&'static str, isize)> {

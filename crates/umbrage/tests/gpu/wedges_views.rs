@@ -4,7 +4,8 @@ use crate::common::{gpu, pairs};
 use crate::wedges::star;
 use umbrage::core::glam::DVec3;
 use umbrage::core::{Image, LightShape, Scene, Texture, primitive};
-use umbrage::{LightPass, Renderer, find};
+use umbrage::find;
+use umbrage_renderer::{LightPass, Renderer};
 
 /// The picture of `view`, and the visibility beside it.
 fn picture(gpu: &umbrage::Gpu, scene: &Scene, set: &str, view: Option<&str>) -> (Option<Image<[u8; 4]>>, Image<f32>) {

@@ -4,8 +4,9 @@ use super::{Bench, EXACT, assert_none, floor, put, renderer_of};
 use crate::common::gpu;
 use umbrage::core::glam::{DAffine3, DVec2, DVec3, Vec4};
 use umbrage::core::{Camera, Light, LightShape, Material, Scene, primitive};
-use umbrage::{LightPass, Renderer, find};
+use umbrage::find;
 use umbrage_reference::Tracer;
+use umbrage_renderer::{LightPass, Renderer};
 
 const LIGHT: DVec3 = DVec3::new(0.5, 6.0, 0.5);
 

@@ -5,8 +5,9 @@ use super::{COUNTS, Target, assert_none, put, target};
 use crate::common::{gpu, pairs, renderer};
 use umbrage::core::glam::{DAffine3, DVec2, DVec3};
 use umbrage::core::{Camera, Image, Light, LightShape, Scene, primitive};
-use umbrage::{Gpu, LightPass, Renderer, find};
+use umbrage::{Gpu, find};
 use umbrage_reference::Tracer;
+use umbrage_renderer::{LightPass, Renderer};
 
 /// A device of a host that asked for nothing.
 fn plain_gpu() -> Gpu {

@@ -4,7 +4,8 @@ use super::{floor, put};
 use crate::common::{gpu, pairs};
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Image, LightShape, Scene, primitive};
-use umbrage::{LightPass, Renderer, Technique, find};
+use umbrage::{Technique, find};
+use umbrage_renderer::{LightPass, Renderer};
 
 fn scene(shape: LightShape) -> Scene {
     let mut scene = floor(shape);

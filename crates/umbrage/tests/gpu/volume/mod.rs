@@ -21,11 +21,12 @@ mod transforms;
 mod views;
 
 use crate::common::{mask, renderer};
+use umbrage::Gpu;
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Camera, Image, Light, LightShape, Material, Scene, primitive};
-use umbrage::{Gpu, Renderer};
 use umbrage_metrics::{TOLERANCE, interior};
 use umbrage_reference::{Options, Tracer};
+use umbrage_renderer::Renderer;
 
 /// The ways to count that are right everywhere.
 pub const COUNTS: [&str; 3] = ["count=z-fail", "count=auto", "count=z-pass-eye"];

@@ -1,23 +1,20 @@
 //! Adds one light under its visibility: the standard lighting model (PX 2.2.4), per pixel.
 
-use super::gbuffer::GBuffer;
-use crate::depth_maps::Eye;
-use crate::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout};
-use crate::receivers::Receivers;
-use crate::shader::{FULLSCREEN, RECEIVERS, Shader, shader_struct};
-use crate::{gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+use crate::gbuffer::GBuffer;
+use umbrage::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout};
+use umbrage::{Eye, Gpu, Passes, Receivers, Shader, View, VisibilityTarget, shader_struct, wgsl};
 use umbrage_core::{LightShape, glam::DVec3};
 
 /// The shader.
 pub const SHADER: Shader = Shader {
     name: "shading",
-    parts: &[FULLSCREEN, RECEIVERS, include_str!("shading.wgsl")],
-    layouts: &[Eye::LAYOUT, ShadingLight::LAYOUT],
+    parts: &[wgsl::FULLSCREEN, wgsl::RECEIVERS, include_str!("shading.wgsl")],
+    layouts: &[ShadingLight::LAYOUT],
 };
 
 shader_struct! {
     /// A light as the shader reads it, relative to the eye.
-    pub(crate) struct ShadingLight {
+    struct ShadingLight {
         eye: Eye,
         /// Place of the light's centre (w = 1) or direction to it (w = 0).
         center: [f32; 4],
@@ -79,7 +76,7 @@ impl Shading {
         let target = attachment(&gbuffer.radiance_view, wgpu::LoadOp::Load);
         let mut pass = passes.render("light", &[target], None);
         pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, &view.receivers.bind_group, &[]);
+        pass.set_bind_group(0, view.receivers.bind_group(), &[]);
         pass.set_bind_group(1, &self.surface, &[]);
         pass.set_bind_group(2, &slot.bind_group, &[]);
         pass.draw(0..3, 0..1);

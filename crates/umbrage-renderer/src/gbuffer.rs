@@ -1,24 +1,19 @@
 //! Depth, normals and materials of the visible surfaces; ambient and emitted light at once.
 
-use crate::casters::{
-    CASTERS_WGSL, Casters, DrawList, Instance, InstanceNumbers, MATERIAL_LAYOUT, MATERIALS_WGSL, Surface,
-};
-use crate::casters::{texture_layout, vertex_layouts};
-use crate::fullscreen::{UNIFORM, attachment, bind, layout, target_texture};
-use crate::{gpu::Gpu, passes::Passes, shader::PACK_NORMAL, shader::Shader, shader::shader_struct};
-use umbrage_core::glam::DMat4;
-use umbrage_core::{CameraView, Frustum};
+use umbrage::fullscreen::{UNIFORM, attachment, bind, layout, target_texture};
+use umbrage::{Casters, Gpu, Passes, SeenCasters, Shader, shader_struct, wgsl};
+use umbrage_core::{CameraView, glam::DMat4};
 
 /// The shader.
 pub const SHADER: Shader = Shader {
     name: "G-buffer",
-    parts: &[CASTERS_WGSL, MATERIALS_WGSL, PACK_NORMAL, include_str!("gbuffer.wgsl")],
-    layouts: &[GBufferView::LAYOUT, Instance::LAYOUT, MATERIAL_LAYOUT],
+    parts: &[SeenCasters::WGSL, wgsl::PACK_NORMAL, include_str!("gbuffer.wgsl")],
+    layouts: &[GBufferView::LAYOUT],
 };
 
 shader_struct! {
     /// The camera as the vertex shader needs it.
-    pub(crate) struct GBufferView {
+    struct GBufferView {
         clip_from_world: [[f32; 4]; 4],
         eye: [f32; 3],
         spare: f32,
@@ -47,10 +42,7 @@ pub(super) struct GBuffer {
     /// Light that leaves the surface; every light adds to it.
     pub(super) radiance_view: wgpu::TextureView,
     pipelines: [wgpu::RenderPipeline; 2],
-    /// Places of the instances that the camera sees.
-    seen: Vec<u32>,
-    numbers: InstanceNumbers,
-    list: DrawList,
+    seen: SeenCasters,
     uniforms: wgpu::Buffer,
     bind_group: wgpu::BindGroup,
 }
@@ -77,9 +69,7 @@ impl GBuffer {
             color_view: view(&texture("base colour", WIDE)),
             radiance_view: view(&texture("radiance", WIDE)),
             pipelines: ["opaque", "masked"].map(|entry| pipeline(gpu, &view_layout, entry)),
-            seen: Vec::new(),
-            numbers: InstanceNumbers::default(),
-            list: DrawList::default(),
+            seen: SeenCasters::default(),
             uniforms,
             bind_group,
         }
@@ -94,13 +84,7 @@ impl GBuffer {
         ambient: [f32; 3],
     ) {
         let clip_from_world = camera.clip_from_world() * DMat4::from_translation(casters.origin());
-        let frustum = Frustum::of(&camera.clip_from_world());
-        self.seen.clear();
-        self.seen
-            .extend((0..).zip(casters.placed()).filter(|(_, p)| frustum.may_see(&p.bounds)).map(|(place, _)| place));
-        self.numbers.clear(gpu, casters, 1);
-        self.numbers.list(casters, &self.seen, None, None, &mut self.list);
-        self.numbers.upload(passes);
+        self.seen.find(gpu, passes, casters, camera);
         let data = GBufferView {
             clip_from_world: clip_from_world.as_mat4().to_cols_array_2d(),
             eye: (camera.eye - casters.origin()).as_vec3().to_array(),
@@ -117,9 +101,8 @@ impl GBuffer {
         let targets = [&self.normal_view, &self.shading_view, &self.color_view, &self.radiance_view].map(clear);
         let mut pass = passes.render("gbuffer", &targets, Some(depth));
         pass.set_bind_group(0, &self.bind_group, &[]);
-        self.numbers.draw(&mut pass, casters, &self.list, true, |surface| {
-            &self.pipelines[usize::from(surface == Surface::Masked)]
-        });
+        let [opaque, masked] = &self.pipelines;
+        self.seen.draw(&mut pass, casters, opaque, masked);
     }
 }
 
@@ -134,8 +117,9 @@ fn depth_format(gpu: &Gpu) -> wgpu::TextureFormat {
 
 fn pipeline(gpu: &Gpu, view_layout: &wgpu::BindGroupLayout, entry: &str) -> wgpu::RenderPipeline {
     let module = SHADER.module(gpu);
+    let [casters, texture] = &SeenCasters::layouts(gpu);
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        bind_group_layouts: &[Some(view_layout), Some(&Casters::layout(gpu)), Some(&texture_layout(gpu))],
+        bind_group_layouts: &[Some(view_layout), Some(casters), Some(texture)],
         ..Default::default()
     });
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -145,7 +129,7 @@ fn pipeline(gpu: &Gpu, view_layout: &wgpu::BindGroupLayout, entry: &str) -> wgpu
             module: &module,
             entry_point: Some("vertex"),
             compilation_options: Default::default(),
-            buffers: &vertex_layouts(true),
+            buffers: &SeenCasters::vertex_layouts(),
         },
         primitive: Default::default(),
         depth_stencil: Some(wgpu::DepthStencilState {

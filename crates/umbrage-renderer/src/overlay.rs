@@ -1,14 +1,14 @@
 //! The single-pass algorithm (PX 3.4): all lights shine everywhere, then one overlay darkens every point in any shadow. Wrong
 //! wherever a point sees one light and not another; kept to be compared with.
 
-use super::{Lit, Visible, gbuffer::GBuffer};
-use crate::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, attachment, bind, layout};
-use crate::shader::{FULLSCREEN, Shader};
-use crate::{error::Error, gpu::Gpu, passes::Passes, visibility::VisibilityTarget};
+use crate::{Lit, Visible, gbuffer::GBuffer};
+use umbrage::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, attachment, bind, layout};
+use umbrage::{Error, Gpu, Passes, Shader, VisibilityTarget, wgsl};
 use umbrage_core::Light;
 
 /// The shader.
-pub const SHADER: Shader = Shader { name: "overlay", parts: &[FULLSCREEN, include_str!("overlay.wgsl")], layouts: &[] };
+pub const SHADER: Shader =
+    Shader { name: "overlay", parts: &[wgsl::FULLSCREEN, include_str!("overlay.wgsl")], layouts: &[] };
 
 pub(super) struct Overlay {
     /// 0 where a point is in any shadow.

@@ -1,30 +1,34 @@
-//! The built-in consumer of visibility: a G-buffer, each light added under its visibility, tone mapping.
+//! A renderer over `umbrage`: a G-buffer, each light added under its visibility, tone mapping. It is one consumer of the
+//! library among others: whatever it uses of it, a host engine may use as well.
+//!
+//! ```no_run
+//! # fn picture(gpu: &umbrage::Gpu, scene: &umbrage::core::Scene) -> Result<(), umbrage::Error> {
+//! use umbrage_renderer::{LightPass, Renderer};
+//! let info = umbrage::find("pcf")?;
+//! let technique = info.make(gpu, &info.settings(&[])?)?;
+//! let mut renderer = Renderer::new(gpu, scene, 640, 480, vec![LightPass { light: 0, technique }])?;
+//! renderer.frame(&scene.camera)?;
+//! let picture = renderer.color()?;
+//! # Ok(()) }
+//! ```
 
 mod gbuffer;
 mod overlay;
 mod shading;
 mod tonemap;
 
-use crate::{
-    casters::Casters,
-    error::Error,
-    gpu::Gpu,
-    passes::{PassTime, Passes, Recorder},
-    read,
-    receivers::Receivers,
-    shader::Shader,
-    technique::{DebugView, Stats, Technique},
-    view::View,
-    visibility::VisibilityTarget,
-};
 use gbuffer::GBuffer;
 use overlay::Overlay;
 use shading::Shading;
 use std::time::{Duration, Instant};
 use tonemap::ToneMap;
-use umbrage_core::{Camera, CameraView, Image, Light, Scene, Texture};
+use umbrage::{
+    Casters, DebugView, Error, Gpu, PassTime, Passes, Receivers, Recorder, Shader, Stats, Technique, View,
+    VisibilityTarget, read,
+};
+use umbrage_core::{Camera, CameraView, Image, Light, LightShape, Scene, Texture};
 
-/// Shaders of the renderer, for tests.
+/// Every shader of the renderer, for tests.
 pub const SHADERS: &[Shader] = &[gbuffer::SHADER, overlay::SHADER, shading::SHADER, tonemap::SHADER];
 
 /// One light and the technique that shadows it.
@@ -92,8 +96,7 @@ impl Renderer {
         }
         let shading = Shading::new(gpu, &gbuffer);
         let tonemap = ToneMap::new(gpu, &gbuffer, width, height);
-        let textured =
-            scene.lights.iter().any(|l| matches!(l.shape, umbrage_core::LightShape::Rect { texture: Some(_), .. }));
+        let textured = scene.lights.iter().any(|l| matches!(l.shape, LightShape::Rect { texture: Some(_), .. }));
         for (i, pass) in lights.iter().enumerate() {
             if lights[..i].iter().any(|other| other.light == pass.light) {
                 return Err(Error::Scene(format!("light {} comes in two passes; it would shine twice", pass.light)));

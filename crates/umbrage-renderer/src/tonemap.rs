@@ -1,16 +1,12 @@
 //! Radiance to a picture for the screen.
 
-use super::gbuffer::GBuffer;
-use crate::fullscreen::{self, FLOATS, Fullscreen, attachment, bind, layout, target_texture};
-use crate::{
-    gpu::Gpu,
-    passes::Passes,
-    shader::{FULLSCREEN, Shader},
-};
+use crate::gbuffer::GBuffer;
+use umbrage::fullscreen::{self, FLOATS, Fullscreen, attachment, bind, layout, target_texture};
+use umbrage::{Gpu, Passes, Shader, wgsl};
 
 /// The shader.
 pub const SHADER: Shader =
-    Shader { name: "tone mapping", parts: &[FULLSCREEN, include_str!("tonemap.wgsl")], layouts: &[] };
+    Shader { name: "tone mapping", parts: &[wgsl::FULLSCREEN, include_str!("tonemap.wgsl")], layouts: &[] };
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 
