@@ -295,31 +295,3 @@ fn a_changed_reference_is_noticed() {
     assert!(right < 0.005, "shadow-map is off by {right} from its own scene");
     assert!(wrong > 0.15, "a quarter less light changed the error only to {wrong}");
 }
-
-#[test]
-fn a_light_that_a_technique_cannot_do_is_an_error_of_render() {
-    let Some((technique, kind)) = umbrage::techniques().iter().find_map(|t| {
-        umbrage_core::LightKind::ALL.into_iter().find(|k| !t.lights.contains(*k)).map(|kind| (t.id, kind.name()))
-    }) else {
-        println!("skipped a_light_that_a_technique_cannot_do_is_an_error_of_render: every technique does every light");
-        return;
-    };
-    let folder = tempfile::tempdir().expect("a folder");
-    let light = match kind {
-        "line" => "kind = \"line\"\nfrom = [-1, 3, 0]\nto = [1, 3, 0]",
-        "rect" => "kind = \"rect\"\nposition = [0, 3, 0]\ndirection = [0, -1, 0]\nup = [0, 0, 1]\nsize = [1, 1]",
-        "disc" => "kind = \"disc\"\nposition = [0, 3, 0]\ndirection = [0, -1, 0]\nradius = 0.5",
-        "sun" => "kind = \"directional\"\ndirection = [0, -1, 0]\nangle = 1",
-        "directional" => "kind = \"directional\"\ndirection = [0, -1, 0]",
-        "sphere" => "kind = \"sphere\"\nposition = [0, 3, 0]\nradius = 0.5",
-        "ellipsoid" => "kind = \"ellipsoid\"\nposition = [0, 3, 0]\nradii = [0.5, 0.2, 0.2]",
-        "spot" => "kind = \"spot\"\nposition = [0, 3, 0]\ndirection = [0, -1, 0]\ninner_angle = 20\nouter_angle = 30",
-        _ => "kind = \"point\"\nposition = [0, 3, 0]",
-    };
-    let scene = SCENE.split("[[light]]").next().expect("a start").to_string() + "[[light]]\n" + light + "\n";
-    fs::write(folder.path().join("s.scene.toml"), scene).expect("a scene");
-    let refused = umbrage(folder.path(), &["render", "s.scene.toml", "--technique", technique, "-o", "a.png"]);
-    let text = String::from_utf8_lossy(&refused.stderr);
-    assert_eq!(refused.status.code(), Some(2), "{text}");
-    assert!(text.contains(&format!("not for {kind} lights")), "{text}");
-}

@@ -76,9 +76,10 @@ pub fn mask(truth: &Truth, geometry: &Geometry, far: f32) -> Image<bool> {
     Image::from_fn(width, height, |x, y| truth.scored[(x, y)] && !beside_edges[(x, y)] && geometry.depth[(x, y)] < far)
 }
 
-/// The folder of shared data, where there is one.
-pub fn shared() -> Option<PathBuf> {
+/// The folder of shared data. Tests that need it are ignored by name; `cargo xtask test` runs them where it is there.
+pub fn shared() -> PathBuf {
     let beside = || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared"));
     let folder = std::env::var_os("UMBRAGE_SHARED").map_or_else(beside, PathBuf::from);
-    folder.is_dir().then_some(folder)
+    assert!(folder.is_dir(), "there is no {}; UMBRAGE_SHARED names the folder of shared data", folder.display());
+    folder
 }

@@ -351,10 +351,11 @@ fn least_interior(picture: &str, id: &str, variant: &str) -> f64 {
 }
 
 #[test]
+#[ignore = "needs the shared references"]
 fn filters_have_neither_acne_nor_leaks() {
     let gpu = gpu();
     let mut wrong = Vec::new();
-    for (name, light, scene, stored) in stored("filters_have_neither_acne_nor_leaks", |_, _| true) {
+    for (name, light, scene, stored) in stored(|_, _| true) {
         let kind = scene.lights[light].shape.kind();
         for (info, variant) in variants().filter(|(info, _)| info.lights.contains(kind)) {
             let [mae, inside, far] = scores(&gpu, &scene, light, (info.id, variant), &stored);

@@ -30,13 +30,9 @@ pub fn mask(stored: &StoredReference) -> Image<bool> {
     Image::from_fn(width, height, |x, y| stored.mask[(x, y)] && !edges[(x, y)])
 }
 
-/// Scene and light number of every stored picture for which `keep`, with the scene itself; none, and a line that says so, where
-/// there are no shared pictures.
-pub fn stored(test: &str, keep: impl Fn(&Scene, usize) -> bool) -> Vec<(String, usize, Scene, StoredReference)> {
-    let Some(folder) = shared().map(|s| s.join("references")) else {
-        println!("{test} skipped: no shared reference pictures (set UMBRAGE_SHARED)");
-        return Vec::new();
-    };
+/// Name, light number, scene and reference of every stored picture that `keep` chooses.
+pub fn stored(keep: impl Fn(&Scene, usize) -> bool) -> Vec<(String, usize, Scene, StoredReference)> {
+    let folder = shared().join("references");
     let mut found = Vec::new();
     for (name, lights) in list(&folder).unwrap() {
         for light in lights {
@@ -56,12 +52,10 @@ pub fn size(stored: &StoredReference) -> (u32, u32) {
 }
 
 #[test]
+#[ignore = "needs the shared references"]
 fn shadow_maps_have_neither_acne_nor_leaks() {
     let hard = |scene: &Scene, light: usize| !scene.lights[light].shape.kind().is_soft();
-    let found = stored("shadow_maps_have_neither_acne_nor_leaks", hard);
-    if found.is_empty() {
-        return;
-    }
+    let found = stored(hard);
     let gpu = gpu();
     for (name, light, scene, stored) in found {
         let renderer = renderer(&gpu, &scene, light, "shadow-map", "size=2048", size(&stored));
@@ -81,6 +75,7 @@ fn brute_force(gpu: &Gpu, scene: &Scene, light: usize, samples: u32, size: (u32,
 }
 
 #[test]
+#[ignore = "needs the shared references"]
 fn brute_force_comes_close_to_the_truth() {
     // Every soft light on one scene, and casters above each other. Few samples keep it quick; the README of the
     // technique has the numbers for 256.
@@ -88,7 +83,7 @@ fn brute_force_comes_close_to_the_truth() {
         let boxes = scene.name.starts_with("boxes") || scene.name.contains("overlap") || scene.name.contains("above");
         scene.lights[light].shape.kind().is_soft() && boxes
     };
-    let found = stored("brute_force_comes_close_to_the_truth", chosen);
+    let found = stored(chosen);
     for (name, light, scene, stored) in found {
         let (width, height) = size(&stored);
         let tracer = Tracer::new(&scene);

@@ -1,13 +1,13 @@
 //! Penumbra wedges against ground truth, against the hard shadow and against themselves.
 
-use crate::common::{against_truth, gpu, renderer, scene, score_frame, shared, visibility};
+use crate::common::{against_truth, gpu, renderer, scene, score_frame, visibility};
 use crate::shared_references::{mask, size, stored};
 use umbrage::core::glam::{DAffine3, DVec3, Vec3};
 use umbrage::core::{Image, Instance, Light, LightShape, Scene, primitive};
 use umbrage_metrics::{Comparison, score};
 use umbrage_reference::{Options, Tracer};
 
-/// Name of a stored scene and its light, most error as a share of that of the hard shadow.
+/// Name of a stored scene and its light, most error as a share of that of the hard shadow; less than a third of it fails, too.
 const STORED: &[(&str, usize, f64)] = &[
     ("boxes-sphere", 0, 0.008),
     ("boxes-rect", 0, 0.01),
@@ -26,9 +26,8 @@ const STORED: &[(&str, usize, f64)] = &[
 ];
 
 pub fn vs_hard(name: &str, light: usize, set: &str) -> Option<(f64, f64)> {
-    let chosen = stored("wedges on stored scenes", |scene, number| {
-        number == light && scene.lights[light].shape.kind().is_soft() && !scene.name.is_empty()
-    });
+    let chosen =
+        stored(|scene, number| number == light && scene.lights[light].shape.kind().is_soft() && !scene.name.is_empty());
     let (_, _, scene, stored) = chosen.into_iter().find(|(n, ..)| n == name)?;
     let gpu = gpu();
     let (width, height) = size(&stored);
@@ -46,17 +45,16 @@ pub fn vs_hard(name: &str, light: usize, set: &str) -> Option<(f64, f64)> {
 }
 
 #[test]
+#[ignore = "needs the shared references"]
 fn errors_on_stored_scenes_are_as_stated() {
-    if shared().is_none() {
-        println!("errors_on_stored_scenes_are_as_stated skipped: no shared reference pictures (set UMBRAGE_SHARED)");
-        return;
-    }
     let mut wrong = Vec::new();
     for &(name, light, most) in STORED {
         let (got, interior) = vs_hard(name, light, "").expect("it is among the stored scenes");
         println!("{name} light {light}: vs_hard {got:.4} (at most {most}), interior {interior:.3} %");
         if got > most || interior < 99.95 {
             wrong.push(format!("{name} light {light}: vs_hard {got:.4}, at most {most}; interior {interior:.3} %"));
+        } else if got < most / 3.0 {
+            wrong.push(format!("{name} light {light}: much better, state it: vs_hard {got:.4}, stated {most}"));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
@@ -67,16 +65,14 @@ fn errors_on_stored_scenes_are_as_stated() {
 const MASKED: &[&str] = &["overlap", "models", "boxes-rect", "boxes-disc", "fence"];
 
 #[test]
+#[ignore = "needs the shared references"]
 fn masks_are_exact_whatever_casts() {
-    if shared().is_none() {
-        println!("masks_are_exact_whatever_casts skipped: no shared reference pictures (set UMBRAGE_SHARED)");
-        return;
-    }
     let mut wrong = Vec::new();
     for name in MASKED {
         let (got, interior) = vs_hard(name, 0, "combine=bitmask,samples=256").expect("it is among the stored scenes");
         println!("{name}: vs_hard {got:.4}, interior {interior:.3} %");
-        if got > 0.025 || interior < 99.95 {
+        // Fewer samples than that could not be told from an exact answer.
+        if !(0.008..=0.025).contains(&got) || interior < 99.95 {
             wrong.push(format!("{name}: vs_hard {got:.4}, interior {interior:.3} %"));
         }
     }
@@ -244,13 +240,8 @@ fn all_ways_of_drawing_agree() {
 }
 
 #[test]
+#[ignore = "needs the shared references"]
 fn a_split_light_halves_the_error_of_a_single_silhouette() {
-    if shared().is_none() {
-        println!(
-            "a_split_light_halves_the_error_of_a_single_silhouette skipped: no shared reference pictures (set UMBRAGE_SHARED)"
-        );
-        return;
-    }
     // Part of what is wrong with the disc is the truth's own sampling.
     for (name, most) in [("models", 0.5), ("boxes-line", 0.5), ("boxes-disc", 0.53)] {
         let of = |set| vs_hard(name, 0, set).expect("it is among the stored scenes").0;
@@ -305,13 +296,8 @@ fn smaller_buffers_keep_to_surfaces() {
 }
 
 #[test]
+#[ignore = "needs the shared references"]
 fn the_largest_share_is_nearer_where_casters_overlap() {
-    if shared().is_none() {
-        println!(
-            "the_largest_share_is_nearer_where_casters_overlap skipped: no shared reference pictures (set UMBRAGE_SHARED)"
-        );
-        return;
-    }
     let of = |set| vs_hard("overlap", 0, set).expect("it is among the stored scenes").0;
     let (sum, most) = (of(""), of("combine=max"));
     assert!(most < 0.2 * sum, "{most:.4} of {sum:.4}");

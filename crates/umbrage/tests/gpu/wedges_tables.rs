@@ -1,6 +1,6 @@
 //! Shares of a light that `wedges` looks up: against formulas, and those of pictures against ground truth.
 
-use crate::common::{against_truth, gpu, renderer, shared, visibility};
+use crate::common::{against_truth, gpu, renderer, visibility};
 use crate::wedges::{difference, star, vs_hard};
 use umbrage::core::glam::DVec3;
 use umbrage::core::{LightShape, Scene, Texture};
@@ -35,13 +35,8 @@ fn tables_of_discs_are_near_the_formula() {
 
 /// Within the bounds that formulas are held to.
 #[test]
+#[ignore = "needs the shared references"]
 fn errors_of_tables_on_stored_scenes_are_as_stated() {
-    if shared().is_none() {
-        println!(
-            "errors_of_tables_on_stored_scenes_are_as_stated skipped: no shared reference pictures (set UMBRAGE_SHARED)"
-        );
-        return;
-    }
     for (name, most) in [("boxes-sphere", 0.008), ("boxes-disc", 0.01), ("boxes-sun", 0.008), ("contact", 0.005)] {
         let [formula, table] = ["analytic", "table"]
             .map(|c| vs_hard(name, 0, &format!("coverage={c}")).expect("it is among the stored scenes").0);

@@ -5,11 +5,9 @@ use crate::common::{gpu, renderer, visibility};
 use crate::shared_references::{mask, size, stored};
 
 #[test]
+#[ignore = "needs the shared references"]
 fn hard_lights_are_as_others_see_them() {
-    let found = stored("hard_lights_are_as_others_see_them", |s, light| !s.lights[light].shape.kind().is_soft());
-    if found.is_empty() {
-        return;
-    }
+    let found = stored(|s, light| !s.lights[light].shape.kind().is_soft());
     let gpu = gpu();
     let mut wrong = Vec::new();
     for (name, light, scene, stored) in found {
