@@ -44,6 +44,7 @@ impl What {
     /// The techniques with their settings.
     pub fn choices(&self) -> Result<Vec<Choice>> {
         let choices = Choice::list(&self.techniques, &self.set)?;
+        choices.iter().for_each(print_note);
         Ok(choices.into_iter().map(|c| c.or_light_samples(self.light_samples)).collect())
     }
 
@@ -51,6 +52,11 @@ impl What {
     pub fn scenes(&self) -> Result<Vec<(Source, Vec<usize>)>> {
         scenes(&self.scenes, self.light)
     }
+}
+
+/// Says what its user should know of a choice.
+pub fn print_note(choice: &Choice) {
+    choice.note.iter().for_each(|note| eprintln!("note: {note}"));
 }
 
 /// Width and height in pixels.

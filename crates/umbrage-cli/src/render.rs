@@ -103,7 +103,9 @@ impl Render {
             bail!("--samples is for `{RAY_TRACED}`; hard techniques take --light-samples");
         }
         set.extend(self.light_samples.map(|n| (LIGHT_SAMPLES.into(), n.to_string())));
-        Ok(Method::Technique(Choice::new(&self.technique, &set)?))
+        let choice = Choice::new(&self.technique, &set)?;
+        args::print_note(&choice);
+        Ok(Method::Technique(choice))
     }
 }
 

@@ -32,6 +32,8 @@ pub struct Choice {
     pub settings: Settings,
     /// Points of the light to average over by brute force.
     pub light_samples: Option<u32>,
+    /// What its user should know: the name that it has now, where it was called by an old one.
+    pub note: Option<String>,
     changed: BTreeMap<String, String>,
 }
 
@@ -45,6 +47,9 @@ impl Choice {
             let text = format!("`{RAY_TRACED}` is the reference of every comparison already; leave it out");
             return Err(Error::Name(text));
         }
+        if let Some(renamed) = Renamed::of(id, set) {
+            return renamed.choice(set);
+        }
         let info = umbrage::find(id)?;
         let (brute, set): (Vec<_>, Vec<_>) = set.iter().cloned().partition(|(name, _)| name == LIGHT_SAMPLES);
         let light_samples = brute.last().map(|(_, value)| parse_light_samples(info, value)).transpose()?;
@@ -52,7 +57,7 @@ impl Choice {
         let defaults = info.settings(&[])?;
         let differs = settings.iter().zip(defaults.iter()).filter(|(s, d)| s != d);
         let changed = differs.map(|((name, value), _)| (name.to_string(), value.to_string())).collect();
-        Ok(Self { info, settings, light_samples, changed })
+        Ok(Self { info, settings, light_samples, note: None, changed })
     }
 
     /// Reads `id:name=value:name=value`; `set` holds what applies to the technique wherever it is named, as
@@ -90,7 +95,8 @@ impl Choice {
             }
         }
         for (id, name, value) in set {
-            if !choices.iter().any(|c| c.info.id == id) {
+            let is_named = |name: &String| name.split(':').next() == Some(id);
+            if !choices.iter().any(|c| c.info.id == id) && !names.iter().any(is_named) {
                 umbrage::find(id)?;
                 let text = format!("--set {id}.{name}={value}: `{id}` is not among the techniques asked for");
                 return Err(Error::Name(text));
@@ -155,6 +161,34 @@ impl Choice {
     }
 }
 
+/// A technique that is called by an old name.
+struct Renamed(&'static umbrage::Renamed);
+
+impl Renamed {
+    fn of(id: &str, set: &[(String, String)]) -> Option<Self> {
+        let last = |param: &str| set.iter().rev().find(|(name, _)| name == param).map(|(_, value)| value.as_str());
+        umbrage::RENAMED.iter().find(|r| r.technique == id && last(r.param) == Some(r.value)).map(Self)
+    }
+
+    /// The same by its name of today. What it never went by is checked and left out.
+    fn choice(self, set: &[(String, String)]) -> Result<Choice, Error> {
+        let Self(old) = self;
+        let (before, now) = (umbrage::find(old.technique)?, umbrage::find(old.to)?);
+        let rest = set.iter().filter(|(name, _)| name != old.param).cloned();
+        let (own, others): (Vec<_>, Vec<_>) =
+            rest.partition(|(name, _)| name == LIGHT_SAMPLES || now.params.iter().any(|p| p.name == name));
+        before.settings(&others)?;
+        let mut choice = Choice::new(now.id, &own)?;
+        let name = format!("{}:{}={}", old.technique, old.param, old.value);
+        let mut note = format!("`{name}` is the technique `{}` now; write `{}`", now.id, choice.label());
+        if let Some((first, _)) = others.first() {
+            note += &format!(", without `{first}`, which it never went by");
+        }
+        choice.note = Some(note);
+        Ok(choice)
+    }
+}
+
 fn parse_light_samples(info: &TechniqueInfo, value: &str) -> Result<u32, Error> {
     if !info.hard {
         let hard: Vec<&str> = umbrage::techniques().iter().filter(|t| t.hard).map(|t| t.id).collect();
@@ -199,6 +233,24 @@ mod tests {
         assert_eq!(label("shadow-map"), "shadow-map:light-samples=9");
         assert_eq!(label("shadow-map:light-samples=4"), "shadow-map:light-samples=4");
         assert_eq!(label("none"), "none");
+    }
+
+    #[test]
+    fn old_names_are_understood_and_lead_to_new_ones() {
+        let old = Choice::parse("wedges:samples=64:combine=bitmask", &[]).unwrap();
+        assert_eq!((old.info.id, old.label().as_str()), ("light-mask", "light-mask:samples=64"));
+        assert!(old.note.is_some_and(|note| note.contains("write `light-mask:samples=64`")));
+        let set = |value: &str| [("wedges".to_string(), "combine".to_string(), value.to_string())];
+        let list = |value| Choice::list(&["wedges".into()], &set(value)).unwrap().remove(0);
+        assert_eq!((list("bitmask").info.id, list("max").info.id), ("light-mask", "wedges"));
+        assert_eq!(list("max").note, None);
+        let scaled = Choice::parse("wedges:combine=bitmask:scale=1/2", &[]).unwrap();
+        assert!(scaled.note.is_some_and(|note| note.contains("without `scale`")));
+        assert!(text(Choice::parse("wedges:combine=bitmask:scale=7", &[])).contains("scale"));
+        for old in umbrage::RENAMED {
+            let info = umbrage::find(old.technique).unwrap();
+            assert!(info.settings(&[(old.param.into(), old.value.into())]).is_err(), "{old:?} is both");
+        }
     }
 
     #[test]

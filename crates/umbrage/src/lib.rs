@@ -32,6 +32,7 @@
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
+mod area_light;
 pub mod baseline;
 mod casters;
 mod depth_maps;
@@ -61,7 +62,7 @@ pub use passes::{PassTime, Passes, Recorder};
 pub use receivers::Receivers;
 pub use shader::{HostLayout, Shader};
 pub use technique::{DebugView, Make, Stats, Technique, TechniqueInfo};
-pub use techniques::{find, techniques};
+pub use techniques::{RENAMED, Renamed, find, techniques};
 
 pub use umbrage_core as core;
 pub use view::View;

@@ -28,12 +28,21 @@ const SAME_DIRECTION: u32 = 0x8000_0000;
 /// The plane of a triangle that no edge has, such as a copy of another one.
 const LEFT_OUT: Vec4 = Vec4::new(0.0, 0.0, 0.0, -1.0);
 
+/// Bindings of [`Edges::draw`] that compute reads. WebGPU promises eight storage buffers a stage, and silhouettes and what is
+/// made of them take four.
+const WITHOUT_INDICES: [u32; 4] = [0, 1, 2, 4];
+const WITHOUT_EDGES: [u32; 4] = [1, 2, 3, 4];
+
 /// Of all meshes of the scene, made once and shared by every light.
 pub(crate) struct Edges {
     /// As `wgsl/edges.wgsl` declares it, for compute.
     pub find: wgpu::BindGroup,
     /// As `wgsl/extrude.wgsl` declares it, for drawing.
     pub draw: wgpu::BindGroup,
+    /// The same for compute, without the indices of triangles.
+    pub make_edges: wgpu::BindGroup,
+    /// The same without the edges.
+    pub make_triangles: wgpu::BindGroup,
     /// What remakes planes of posed meshes, where there are any.
     pub pose: Option<wgpu::BindGroup>,
     /// Most shadows that one point can be in, whichever casters are drawn.
@@ -99,12 +108,15 @@ impl Edges {
         let planes = gpu.buffer("planes", &planes, wgpu::BufferUsages::STORAGE);
         let of_edges = [edges.as_entire_binding(), planes.as_entire_binding()];
         let of_vertices = [&casters.positions, &casters.indices, &casters.instances].map(|b| b.as_entire_binding());
+        let all = [&of_edges[..], &of_vertices].concat();
         let placed = casters.placed.iter().filter(|p| p.casts);
         let layers = placed.map(|p| meshes[p.mesh as usize].layers()).fold(0, u32::saturating_add);
         Ok(Self {
             layers,
             find: bind(gpu, "edges", &Self::find_layout(gpu), &of_edges),
-            draw: bind(gpu, "edges", &Self::draw_layout(gpu), &[&of_edges[..], &of_vertices].concat()),
+            make_edges: part(gpu, WITHOUT_INDICES, &all),
+            make_triangles: part(gpu, WITHOUT_EDGES, &all),
+            draw: bind(gpu, "edges", &Self::draw_layout(gpu), &all),
             pose: (!casters.poses.is_empty()).then(|| poses::planes_group(gpu, &casters.indices, &planes)),
             meshes,
             bytes: edges.size() + planes.size(),
@@ -116,7 +128,17 @@ impl Edges {
     }
 
     pub fn draw_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-        layout(gpu, "edges", wgpu::ShaderStages::VERTEX | wgpu::ShaderStages::COMPUTE, &[STORAGE; 5])
+        layout(gpu, "edges", wgpu::ShaderStages::VERTEX, &[STORAGE; 5])
+    }
+
+    /// Of [`Edges::make_edges`].
+    pub fn make_edges_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+        part_layout(gpu, WITHOUT_INDICES)
+    }
+
+    /// Of [`Edges::make_triangles`].
+    pub fn make_triangles_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+        part_layout(gpu, WITHOUT_EDGES)
     }
 
     /// Of a mesh, by its number in the scene.
@@ -128,4 +150,21 @@ impl Edges {
     pub fn bytes(&self) -> u64 {
         self.bytes
     }
+}
+
+fn part_layout(gpu: &Gpu, bindings: [u32; 4]) -> wgpu::BindGroupLayout {
+    let entry = |binding| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: STORAGE,
+        count: None,
+    };
+    let entries = bindings.map(entry);
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("edges"), entries: &entries })
+}
+
+fn part(gpu: &Gpu, bindings: [u32; 4], all: &[wgpu::BindingResource<'_>]) -> wgpu::BindGroup {
+    let entries = bindings.map(|binding| wgpu::BindGroupEntry { binding, resource: all[binding as usize].clone() });
+    let layout = &part_layout(gpu, bindings);
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("edges"), layout, entries: &entries })
 }

@@ -38,7 +38,7 @@ impl Find {
             has_dynamic_offset: false,
             min_binding_size: None,
         };
-        let bindings = [STORAGE, STORAGE, written, written, UNIFORM];
+        let bindings = [STORAGE, written, written, UNIFORM];
         let layout = layout(gpu, "find silhouettes", wgpu::ShaderStages::COMPUTE, &bindings);
         let module = FIND_SHADER.module(gpu);
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -64,12 +64,11 @@ impl Find {
 
     pub fn record(&self, passes: &mut Passes<'_>, buffers: &Buffers, edges: &Edges, work: &Work, shape: Shape) {
         let Some(bind_group) = &buffers.find else { return };
-        let triangle_chunks = work.chunks.len() as u32 - work.edge_chunks;
+        let triangle_chunks = work.triangle_chunks();
         let edge_chunks = work.edge_chunks;
         let uniform =
             FindSilhouettes { edge_chunks, triangle_chunks, weighted: shape.weighted.into(), ..Default::default() };
         passes.upload(&buffers.find_uniform, bytemuck::bytes_of(&uniform));
-        passes.upload(&buffers.list, bytemuck::cast_slice(&work.header()));
         let arguments = Part::ALL.map(|part| {
             let Range { start, end } = shape.indices(part);
             [end - start, 0, start, part.first_vertex(), 0]

@@ -13,7 +13,7 @@ use crate::shader::{HostLayout, Shader, shader_struct};
 use crate::{casters::Casters, error::Error, gpu::Gpu, passes::Passes};
 use find::Find;
 use std::ops::Range;
-use umbrage_core::glam::{DMat4, DVec4};
+use umbrage_core::glam::{DMat4, DVec4, Vec3};
 use umbrage_core::silhouette::{Rule, light_in_mesh};
 use work::{Buffers, Work};
 
@@ -47,6 +47,10 @@ shader_struct! {
         flags: u32,
         reach: f32,
         pad: u32,
+        seen_from: [f32; 3],
+        pad_seen_from: f32,
+        axis: [f32; 3],
+        pad_axis: f32,
     }
 }
 
@@ -106,6 +110,8 @@ pub(crate) struct Throw {
     pub end: DVec4,
     /// Where the shadow ends otherwise, metres from the light; 0 for nowhere.
     pub reach: f32,
+    /// Wedges only, in the light's own space: from where the silhouette is seen, and the x axis of a piece of a sphere.
+    pub anchor: [Vec3; 2],
 }
 
 /// How sides and caps are drawn.
@@ -201,7 +207,7 @@ pub(crate) struct Silhouettes {
 impl Silhouettes {
     /// Makes pipelines; buffers follow.
     pub fn new(gpu: &Gpu, extrude: Extrude) -> Self {
-        let storage = [STORAGE; 3];
+        let storage = [STORAGE; 2];
         let stages = wgpu::ShaderStages::VERTEX | wgpu::ShaderStages::COMPUTE;
         Self {
             extrude,
@@ -275,11 +281,9 @@ impl Silhouettes {
         let Some(buffers) = &self.buffers else { return };
         passes.upload(&buffers.extrusion, bytemuck::bytes_of(&self.extrusion));
         passes.upload(&buffers.casters, bytemuck::cast_slice(&self.work.casters));
-        passes.upload(&buffers.chunks, bytemuck::cast_slice(&self.work.chunks));
-        match (self.extrude, &self.find) {
-            (Extrude::Cpu, _) => passes.upload(&buffers.list, bytemuck::cast_slice(&self.work.entries)),
-            (Extrude::Compute, Some(find)) => find.record(passes, buffers, edges, &self.work, self.shape),
-            _ => (),
+        passes.upload(&buffers.list, bytemuck::cast_slice(&self.work.list));
+        if let Some(find) = &self.find {
+            find.record(passes, buffers, edges, &self.work, self.shape);
         }
     }
 
@@ -380,6 +384,8 @@ fn caster(casters: &Casters, edges: &Edges, throw: &Throw) -> Option<Caster> {
         instance: placed.number,
         flags: flags.into_iter().filter(|(on, _)| *on).map(|(_, bit)| bit).sum(),
         reach: throw.reach,
+        seen_from: throw.anchor[0].to_array(),
+        axis: throw.anchor[1].to_array(),
         ..Caster::default()
     })
 }

@@ -12,15 +12,15 @@ use umbrage_core::silhouette::{Rule, facing, multiplicity};
 #[derive(Default)]
 pub(super) struct Work {
     pub casters: Vec<Caster>,
-    /// The caster of each chunk of edges, then of triangles.
-    pub chunks: Vec<u32>,
+    /// The header; the caster of each chunk of edges, then of triangles; and where the CPU finds silhouettes, the lists of
+    /// the three parts, one after the other as `room` lays them out.
+    pub list: Vec<u32>,
+    chunks: u32,
     /// Chunks of edges of casters counted from the eye, of all casters.
     pass_chunks: u32,
     pub edge_chunks: u32,
     /// Most entries that each part may need.
     room: [u32; 3],
-    /// What the CPU found: the header, then lists of the three parts, one after the other as `room` lays them out.
-    pub entries: Vec<u32>,
     counts: [u32; 3],
     /// Of each caster the entries of sides, where the CPU found them.
     pub sides: Vec<Range<u32>>,
@@ -31,11 +31,10 @@ pub(super) struct Work {
 /// Bytes that buffers need to have.
 pub(super) struct Needs {
     casters: u64,
-    chunks: u64,
     list: u64,
 }
 
-/// Words before the entries of a list: for each part where they start and how many there are.
+/// Words that a list starts with: for each part where its entries start and how many there are. The chunks follow.
 const HEADER: u32 = 8;
 
 /// More entries than this do not fit their numbering.
@@ -44,8 +43,9 @@ const MOST: u64 = 1 << 29;
 impl Work {
     pub fn clear(&mut self) {
         self.casters.clear();
-        self.chunks.clear();
-        (self.pass_chunks, self.edge_chunks) = (0, 0);
+        self.list.clear();
+        self.list.resize(HEADER as usize, 0);
+        (self.chunks, self.pass_chunks, self.edge_chunks) = (0, 0, 0);
         self.room = [0; 3];
         (self.edges, self.triangles) = (0, 0);
     }
@@ -54,7 +54,7 @@ impl Work {
         let Some(mut new) = caster(casters, edges, throw) else { return };
         new.edge_chunk = self.edge_chunks;
         let chunks = new.edge_count.div_ceil(CHUNK);
-        self.chunks.extend(std::iter::repeat_n(self.casters.len() as u32, chunks as usize));
+        self.add_chunks(self.casters.len() as u32, chunks);
         self.edge_chunks += chunks;
         if !throw.z_fail {
             self.pass_chunks = self.edge_chunks;
@@ -68,31 +68,41 @@ impl Work {
         self.casters.push(new);
     }
 
+    fn add_chunks(&mut self, caster: u32, count: u32) {
+        self.list.extend(std::iter::repeat_n(caster, count as usize));
+        self.chunks += count;
+    }
+
     /// Adds the chunks of triangles.
     pub fn finish(&mut self, shape: Shape) -> Result<(), Error> {
-        for (number, caster) in (0..).zip(&mut self.casters) {
-            caster.triangle_chunk = self.chunks.len() as u32;
+        for number in 0..self.casters.len() {
+            let caster = &mut self.casters[number];
+            caster.triangle_chunk = self.chunks;
             let has_cap = caster.flags & LIGHT_CAP != 0 || (shape.dark_caps && caster.flags & DARK_CAP != 0);
             if caster.flags & Z_FAIL != 0 && has_cap {
-                let chunks = caster.triangle_count.div_ceil(CHUNK);
-                self.chunks.extend(std::iter::repeat_n(number, chunks as usize));
+                let triangles = caster.triangle_count;
                 let room = &mut self.room[Part::Caps as usize];
-                *room = room.saturating_add(caster.triangle_count);
-                self.triangles += u64::from(caster.triangle_count);
+                *room = room.saturating_add(triangles);
+                self.triangles += u64::from(triangles);
+                self.add_chunks(number as u32, triangles.div_ceil(CHUNK));
             }
         }
-        let entries = self.room.iter().map(|r| u64::from(*r)).sum::<u64>();
-        let size = entries.max(self.chunks.len() as u64 * u64::from(CHUNK));
+        let size = self.entries().max(u64::from(self.chunks) * u64::from(CHUNK));
         if size > MOST {
             return Err(Error::Size { what: "the edges of all casters".into(), size, limit: MOST });
         }
+        Part::ALL.iter().for_each(|part| self.list[2 * *part as usize] = self.first(*part));
         Ok(())
+    }
+
+    /// Most entries of all parts.
+    fn entries(&self) -> u64 {
+        self.room.iter().map(|r| u64::from(*r)).sum()
     }
 
     /// Finds everything on the CPU.
     pub fn list(&mut self, edges: &Edges, casters: &Casters, throws: &[Throw], shape: Shape) {
-        self.entries.clear();
-        self.entries.resize((HEADER + self.room.iter().sum::<u32>()) as usize, 0);
+        self.list.resize(self.list.len() + self.entries() as usize, 0);
         self.counts = [0; 3];
         self.sides.clear();
         for (i, throw) in throws.iter().enumerate() {
@@ -112,8 +122,8 @@ impl Work {
                 }
             }
             self.sides.push(before..self.counts[part as usize]);
-            let has_chunks = self.chunks.get(of.triangle_chunk as usize) == Some(&(i as u32));
-            if !throw.z_fail || !has_chunks || of.triangle_chunk < self.edge_chunks {
+            let chunk = (of.triangle_chunk < self.chunks).then(|| self.list[(HEADER + of.triangle_chunk) as usize]);
+            if !throw.z_fail || chunk != Some(i as u32) || of.triangle_chunk < self.edge_chunks {
                 continue;
             }
             for (&number, plane) in mesh.adjacency.numbers.iter().zip(planes) {
@@ -123,30 +133,20 @@ impl Work {
                 }
             }
         }
-        for (part, count) in Part::ALL.into_iter().zip(self.counts) {
-            let header = [self.first(part), count];
-            self.entries[2 * part as usize..][..2].copy_from_slice(&header);
-        }
+        Part::ALL.iter().zip(self.counts).for_each(|(part, count)| self.list[2 * *part as usize + 1] = count);
     }
 
     fn push(&mut self, part: Part, entry: u32, times: u32) {
         for _ in 0..times {
             let at = self.first(part) + self.counts[part as usize];
-            self.entries[at as usize] = entry;
+            self.list[at as usize] = entry;
             self.counts[part as usize] += 1;
         }
     }
 
     /// Where the entries of a part start.
     fn first(&self, part: Part) -> u32 {
-        HEADER + self.room[..part as usize].iter().sum::<u32>()
-    }
-
-    /// What the list starts with before anything was found.
-    pub fn header(&self) -> [u32; HEADER as usize] {
-        let mut header = [0; HEADER as usize];
-        Part::ALL.iter().for_each(|part| header[2 * *part as usize] = self.first(*part));
-        header
+        HEADER + self.chunks + self.room[..part as usize].iter().sum::<u32>()
     }
 
     /// Groups of what the CPU found, an instance each.
@@ -159,7 +159,7 @@ impl Work {
         match part {
             Part::PassSides => 0..self.pass_chunks,
             Part::FailSides => self.pass_chunks..self.edge_chunks,
-            Part::Caps => self.edge_chunks..self.chunks.len() as u32,
+            Part::Caps => self.edge_chunks..self.chunks,
         }
     }
 
@@ -170,12 +170,16 @@ impl Work {
     }
 
     pub fn needs(&self, listed: bool) -> Needs {
-        let entries = if listed { self.room.iter().map(|r| u64::from(*r)).sum::<u64>() + u64::from(HEADER) } else { 0 };
+        let entries = if listed { self.entries() } else { 0 };
         Needs {
             casters: self.casters.len() as u64 * size_of::<Caster>() as u64,
-            chunks: self.chunks.len() as u64 * 4,
-            list: entries * 4,
+            list: 4 * (u64::from(HEADER + self.chunks) + entries),
         }
+    }
+
+    /// Chunks of triangles.
+    pub fn triangle_chunks(&self) -> u32 {
+        self.chunks - self.edge_chunks
     }
 
     pub fn room(&self, part: Part) -> u32 {
@@ -188,7 +192,7 @@ impl Work {
 
     /// Numbers in the mesh's list of edges, and whether they count twice, of what the CPU found.
     pub fn side(&self, caster: usize, number: u32) -> (u32, bool) {
-        let entry = self.entries[(self.first(Part::PassSides) + number) as usize];
+        let entry = self.list[(self.first(Part::PassSides) + number) as usize];
         ((entry >> 2) - self.casters[caster].edge_chunk * CHUNK, entry & 2 != 0)
     }
 
@@ -200,7 +204,6 @@ impl Work {
 /// What a frame's casters and lists are uploaded to.
 pub(super) struct Buffers {
     pub casters: wgpu::Buffer,
-    pub chunks: wgpu::Buffer,
     pub list: wgpu::Buffer,
     pub arguments: wgpu::Buffer,
     pub find_uniform: wgpu::Buffer,
@@ -218,7 +221,7 @@ impl Buffers {
     ) -> Result<Self, Error> {
         use wgpu::BufferUsages as Usage;
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
-        let largest = needs.list.max(needs.casters).max(needs.chunks);
+        let largest = needs.list.max(needs.casters);
         if largest > limit {
             return Err(Error::Size { what: "a list of silhouettes".into(), size: largest, limit });
         }
@@ -234,26 +237,25 @@ impl Buffers {
             })
         };
         let casters = buffer("casters of a light", room(needs.casters), Usage::STORAGE);
-        let chunks = buffer("chunks", room(needs.chunks), Usage::STORAGE);
         let list = buffer("silhouettes", room(needs.list), Usage::STORAGE);
         let indirect = Usage::STORAGE | Usage::INDIRECT | Usage::COPY_SRC;
         let arguments = buffer("draws of silhouettes", 3 * find::ARGUMENTS, indirect);
         let find_uniform = buffer("find silhouettes", size_of::<find::FindSilhouettes>() as u64, Usage::UNIFORM);
         let extrusion = buffer("extrusion", size_of::<Extrusion>() as u64, Usage::UNIFORM);
-        let shared = [&casters, &chunks, &list].map(|b| b.as_entire_binding());
+        let shared = [&casters, &list].map(|b| b.as_entire_binding());
         let draw_extra = [extrusion.as_entire_binding()];
         let find_extra = [arguments.as_entire_binding(), find_uniform.as_entire_binding()];
         let draw = bind(gpu, "silhouettes", draw_layout, &[&shared[..], &draw_extra].concat());
         let find = find_layout.map(|l| bind(gpu, "find silhouettes", l, &[&shared[..], &find_extra].concat()));
-        Ok(Self { draw, find, casters, chunks, list, arguments, find_uniform, extrusion })
+        Ok(Self { draw, find, casters, list, arguments, find_uniform, extrusion })
     }
 
     pub fn hold(&self, needs: &Needs) -> bool {
-        self.casters.size() >= needs.casters && self.chunks.size() >= needs.chunks && self.list.size() >= needs.list
+        self.casters.size() >= needs.casters && self.list.size() >= needs.list
     }
 
     pub fn bytes(&self) -> u64 {
-        let all = [&self.casters, &self.chunks, &self.list, &self.arguments, &self.find_uniform, &self.extrusion];
+        let all = [&self.casters, &self.list, &self.arguments, &self.find_uniform, &self.extrusion];
         all.iter().map(|b| b.size()).sum()
     }
 }

@@ -28,12 +28,30 @@ techniques![
     plane_optimal,
     volume,
     wedges,
+    light_mask,
 ];
 
 /// All techniques, in the order in which they are best explained.
 pub fn techniques() -> &'static [&'static TechniqueInfo] {
     TECHNIQUES
 }
+
+/// A value of a parameter that has become a technique of its own.
+#[derive(Clone, Copy, Debug)]
+pub struct Renamed {
+    /// Id of the technique that had it.
+    pub technique: &'static str,
+    /// The parameter.
+    pub param: &'static str,
+    /// The value, which the parameter no longer takes.
+    pub value: &'static str,
+    /// Id of the technique that it is now.
+    pub to: &'static str,
+}
+
+/// Old names of techniques, which those who read names from users go on to understand.
+pub const RENAMED: &[Renamed] =
+    &[Renamed { technique: "wedges", param: "combine", value: "bitmask", to: "light-mask" }];
 
 /// The technique that users call `id`.
 ///

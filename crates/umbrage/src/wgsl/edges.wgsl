@@ -31,6 +31,11 @@ struct Caster {
     // Where its shadow ends, metres from the light; 0: nowhere.
     reach: f32,
     pad: u32,
+    // Wedges, in the light's own space: from where the silhouette is seen, and the x axis of a piece of a sphere.
+    seen_from: vec3f,
+    pad_seen_from: f32,
+    axis: vec3f,
+    pad_axis: f32,
 }
 
 // Only triangles that face away from the light throw the shadow; otherwise all do, turned to the light.
@@ -50,8 +55,11 @@ const SAME_DIRECTION: u32 = 0x80000000u;
 // Edges, and triangles, of a caster that go together; each chunk names its caster.
 const CHUNK: u32 = 64u;
 
+// Words of a list before those that name the caster of each chunk: for each part where its entries start and how many there
+// are. The entries follow the chunks.
+const HEADER: u32 = 8u;
+
 @group(0) @binding(0) var<storage, read> casters: array<Caster>;
-@group(0) @binding(1) var<storage, read> chunks: array<u32>;
 @group(1) @binding(0) var<storage, read> edges: array<Edge>;
 @group(1) @binding(1) var<storage, read> planes: array<vec4f>;
 

@@ -18,9 +18,9 @@ struct Corner {
     @location(0) @interpolate(flat) times: f32,
 }
 
-// For each part where its entries start and how many there are; then the entries.
-@group(0) @binding(2) var<storage, read> list: array<u32>;
-@group(0) @binding(3) var<uniform> extrusion: Extrusion;
+// Header, chunks and entries, see `HEADER`.
+@group(0) @binding(1) var<storage, read> list: array<u32>;
+@group(0) @binding(2) var<uniform> extrusion: Extrusion;
 @group(1) @binding(2) var<storage, read> positions: array<f32>;
 @group(1) @binding(3) var<storage, read> indices: array<u32>;
 @group(1) @binding(4) var<storage, read> instances: array<Instance>;
@@ -66,7 +66,7 @@ fn on_screen(p: vec4f, times: f32) -> Corner {
 // shadows are one point, and the quad is drawn as one triangle (GG 9.5.1).
 fn side_corner(entry: u32, corner: u32) -> Corner {
     let slot = entry >> 2u;
-    let caster = chunks[slot / CHUNK];
+    let caster = list[HEADER + slot / CHUNK];
     let edge = edges[casters[caster].first_edge + slot - casters[caster].edge_chunk * CHUNK];
     let is_turned = ((entry & 1u) != 0u) != ((casters[caster].flags & MIRRORED) != 0u);
     let is_start = corner == 1u || corner == 2u;
@@ -81,7 +81,7 @@ fn side_corner(entry: u32, corner: u32) -> Corner {
 // Corner 0…2 of the light cap, 3…5 of the dark one, which is turned round.
 fn cap_corner(entry: u32, corner: u32) -> Corner {
     let slot = entry >> 2u;
-    let caster = chunks[slot / CHUNK];
+    let caster = list[HEADER + slot / CHUNK];
     let flags = casters[caster].flags;
     let is_dark = corner >= 3u;
     if (flags & select(LIGHT_CAP, DARK_CAP, is_dark)) == 0u {
@@ -126,7 +126,7 @@ fn listed_cap(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group
 
 // The side at an edge, where that bounds the shadow more than `before` times.
 fn side_at(slot: u32, before: u32) -> u32 {
-    let caster = chunks[slot / CHUNK];
+    let caster = list[HEADER + slot / CHUNK];
     let edge = slot - casters[caster].edge_chunk * CHUNK;
     if edge >= casters[caster].edge_count {
         return NO_ENTRY;
@@ -149,7 +149,7 @@ fn any_side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) chunk: 
 @vertex
 fn any_cap(@builtin(vertex_index) vertex: u32, @builtin(instance_index) chunk: u32) -> Corner {
     let slot = chunk * CHUNK + vertex / 6u;
-    let caster = chunks[chunk];
+    let caster = list[HEADER + chunk];
     let triangle = slot - casters[caster].triangle_chunk * CHUNK;
     if triangle >= casters[caster].triangle_count {
         return NOWHERE;

@@ -8,11 +8,11 @@ struct FindSilhouettes {
     pad: u32,
 }
 
-// For each part where its entries start and how many there are; then the entries.
-@group(0) @binding(2) var<storage, read_write> list: array<atomic<u32>>;
+// Header, chunks and entries, see `HEADER`.
+@group(0) @binding(1) var<storage, read_write> list: array<atomic<u32>>;
 // Arguments of three indexed indirect draws.
-@group(0) @binding(3) var<storage, read_write> draws: array<u32, 15>;
-@group(0) @binding(4) var<uniform> find: FindSilhouettes;
+@group(0) @binding(2) var<storage, read_write> draws: array<u32, 15>;
+@group(0) @binding(3) var<uniform> find: FindSilhouettes;
 
 const CAPS: u32 = 2u;
 
@@ -33,7 +33,7 @@ fn find_sides(
     if chunk >= find.edge_chunks {
         return;
     }
-    let caster = chunks[chunk];
+    let caster = atomicLoad(&list[HEADER + chunk]);
     let edge = (chunk - casters[caster].edge_chunk) * CHUNK + place;
     if edge >= casters[caster].edge_count {
         return;
@@ -57,7 +57,7 @@ fn find_caps(
         return;
     }
     let chunk = find.edge_chunks + own;
-    let caster = chunks[chunk];
+    let caster = atomicLoad(&list[HEADER + chunk]);
     let triangle = (chunk - casters[caster].triangle_chunk) * CHUNK + place;
     if triangle >= casters[caster].triangle_count {
         return;

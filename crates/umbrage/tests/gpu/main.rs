@@ -7,6 +7,8 @@ mod filters;
 mod golden;
 mod host;
 mod layouts;
+mod light_mask;
+mod limits;
 mod pcf_blur;
 mod penumbra;
 mod poses;

@@ -39,7 +39,7 @@ fn tables_of_discs_are_near_the_formula() {
 fn errors_of_tables_on_stored_scenes_are_as_stated() {
     for (name, most) in [("boxes-sphere", 0.008), ("boxes-disc", 0.01), ("boxes-sun", 0.008), ("contact", 0.005)] {
         let [formula, table] = ["analytic", "table"]
-            .map(|c| vs_hard(name, 0, &format!("coverage={c}")).expect("it is among the stored scenes").0);
+            .map(|c| vs_hard(name, 0, "wedges", &format!("coverage={c}")).expect("it is among the stored scenes").0);
         println!("{name}: vs_hard {table:.5} by table, {formula:.5} by formula (at most {most})");
         assert!(table <= most, "{name}: {table}");
     }
@@ -72,7 +72,7 @@ fn shadows_of_pictures_are_right() {
     let gpu = gpu();
     for (name, picture) in pictures() {
         let scene = under(picture, DVec3::new(0.6, 4.0, 0.4), DVec3::NEG_Y, DVec3::Z);
-        let [hard, soft, mask] = [("volume", ""), ("wedges", ""), ("wedges", "combine=bitmask,samples=256")]
+        let [hard, soft, mask] = [("volume", ""), ("wedges", ""), ("light-mask", "samples=256")]
             .map(|(id, set)| against_truth(&gpu, &scene, 0, id, set, SIZE, 1024).rmse);
         println!("{name}: {:.4} of the hard shadow's {hard:.4}, mask {:.4}", soft / hard, mask / hard);
         assert!(hard > 0.02 && soft / hard < 0.03, "{name}: {soft} of {hard}");
@@ -101,7 +101,7 @@ fn a_picture_below_the_horizon_is_hidden() {
     for (name, picture) in pictures().into_iter().take(2) {
         let (direction, up) = (DVec3::new(1.0, -0.1, 0.0).normalize(), DVec3::new(0.1, 1.0, 0.7).normalize());
         let scene = under(picture, DVec3::new(-2.5, 0.1, 0.0), direction, up);
-        let [hard, soft, mask] = [("volume", ""), ("wedges", ""), ("wedges", "combine=bitmask,samples=256")]
+        let [hard, soft, mask] = [("volume", ""), ("wedges", ""), ("light-mask", "samples=256")]
             .map(|(id, set)| against_truth(&gpu, &scene, 0, id, set, SIZE, 256).rmse);
         println!("{name}: {:.4} of the hard shadow's {hard:.4}, mask {:.4}", soft / hard, mask / hard);
         assert!(hard > 0.1 && soft / hard < 0.02, "{name}: {soft} of {hard}");

@@ -182,6 +182,7 @@ impl Selection {
             dark_cap,
             end,
             reach: reach as f32,
+            anchor: Default::default(),
         }
     }
 

@@ -7,7 +7,7 @@ const SLACK: f32 = 1e-3;
 fn span(axis: vec3f, other: vec3f, ends: array<vec3f, 2>) -> vec2f {
     var found = vec2f(-10.0, 10.0);
     let first = light.corners[0];
-    // Of a ball and a sun they are all the same.
+    // Of a sphere and a sun they are all the same.
     let is_round = all(light.corners[1] == first) && all(light.corners[2] == first) && all(light.corners[3] == first);
     for (var i = 0u; i < select(4u, 1u, is_round); i++) {
         let corner = light.corners[i].xyz;

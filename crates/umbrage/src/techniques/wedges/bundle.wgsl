@@ -1,6 +1,6 @@
 // Wedges that lie close together are drawn as one: see `wedge::Wedge::around` in the core crate.
 
-@group(0) @binding(0) var<uniform> light: WedgeLight;
+@group(0) @binding(0) var<uniform> light: AreaLight;
 @group(0) @binding(1) var<storage, read> wedges: array<Wedge>;
 // Arguments of the draws of all bodies, of single ones and of bundles.
 @group(0) @binding(2) var<storage, read_write> draws: array<atomic<u32>, 15>;

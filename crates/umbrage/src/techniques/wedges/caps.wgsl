@@ -9,13 +9,9 @@ struct CapChunk {
 @group(1) @binding(2) var<storage, read> positions: array<f32>;
 @group(1) @binding(3) var<storage, read> indices: array<u32>;
 @group(1) @binding(4) var<storage, read> instances: array<Instance>;
-@group(2) @binding(0) var<uniform> light: WedgeLight;
+@group(2) @binding(0) var<uniform> light: AreaLight;
 @group(2) @binding(1) var<storage, read> cap_chunks: array<CapChunk>;
 @group(2) @binding(2) var<storage, read_write> caps: array<Cap>;
-// Of casters, if the light is split.
-@group(2) @binding(3) var<storage, read> anchors: array<Anchor>;
-
-override SPLIT: bool = false;
 
 fn corner(caster: u32, triangle: u32, k: u32) -> vec3f {
     let index = casters[caster].first_index + 3u * triangle + k;
@@ -32,10 +28,7 @@ fn weights_of(caster: u32, faces_light: bool) -> vec2f {
 
 // From where the light's shadows are thrown: a place, or a direction, relative to the eye.
 fn source(caster: u32) -> vec3f {
-    if SPLIT {
-        return light.center + from_light(light, anchors[caster].place);
-    }
-    return light.center + from_light(light, middle(light));
+    return light.center + from_light(light, casters[caster].seen_from);
 }
 
 fn cap_of(caster: u32, triangle: u32, faces_light: bool, weights: vec2f) -> Cap {

@@ -6,7 +6,7 @@ struct Exit {
     potential: f32,
 }
 
-fn exit_of(light: WedgeLight, start: vec2f, way: vec2f) -> Exit {
+fn exit_of(light: AreaLight, start: vec2f, way: vec2f) -> Exit {
     let square = dot(way, way);
     let along = dot(start, way);
     let circle = (sqrt(max(along * along + square * (1.0 - dot(start, start)), 0.0)) - along) / square;
@@ -23,7 +23,7 @@ fn exit_of(light: WedgeLight, start: vec2f, way: vec2f) -> Exit {
 }
 
 // The part of an edge, homogeneous in the face's coordinates, that runs across the piece.
-fn across_cell(light: WedgeLight, a: vec3f, b: vec3f, beyond: bool) -> Chord {
+fn across_cell(light: AreaLight, a: vec3f, b: vec3f, beyond: bool) -> Chord {
     let n = cross(a, b);
     let length = length(n.xy);
     let along = vec2f(n.y, -n.x) / length;
@@ -40,7 +40,7 @@ fn across_cell(light: WedgeLight, a: vec3f, b: vec3f, beyond: bool) -> Chord {
 }
 
 // `center`: where silhouettes are seen from; `inside`: it is on the left of the chord, whatever was rounded.
-fn cell_term(light: WedgeLight, c: Chord, center: vec2f, inside: bool) -> f32 {
+fn cell_term(light: AreaLight, c: Chord, center: vec2f, inside: bool) -> f32 {
     // A point on the piece, however far from the caster's own direction the light is seen.
     let in_sides = clamp(center, light.cell.xy + 1e-3, light.cell.zw - 1e-3);
     let held = in_sides * min(1.0, 0.999 / max(length(in_sides), 1e-6));
@@ -58,7 +58,7 @@ fn cell_term(light: WedgeLight, c: Chord, center: vec2f, inside: bool) -> f32 {
 }
 
 // A − S of an edge, see `share_of_edge`.
-fn share_of_piece(light: WedgeLight, p: vec3f, start: vec3f, end: vec3f, anchor: Anchor, inside: bool) -> f32 {
+fn share_of_piece(light: AreaLight, p: vec3f, start: vec3f, end: vec3f, anchor: Anchor, inside: bool) -> f32 {
     let a = start - p;
     let b = end - p;
     if light.parallel != 0u {
@@ -71,7 +71,7 @@ fn share_of_piece(light: WedgeLight, p: vec3f, start: vec3f, end: vec3f, anchor:
         let share = select(0.0, cell_term(light, c, anchor.place.xy, inside != is_behind), c.hit);
         return select(share, -share, is_behind);
     }
-    // The face of a ball turns to the point, its x as near to the caster's as it can be.
+    // The face of a sphere turns to the point, its x as near to the caster's as it can be.
     let way = -p;
     let far = length(way);
     let z = way / far;

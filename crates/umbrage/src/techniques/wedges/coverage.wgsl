@@ -13,7 +13,7 @@ struct Across {
 }
 
 // The face turns to whoever looks: `a` and `b` are the edge relative to the point, `way` leads to the centre.
-fn across_ball(a: vec3f, b: vec3f, way: vec3f) -> Across {
+fn across_sphere(a: vec3f, b: vec3f, way: vec3f) -> Across {
     let square = dot(way, way);
     let per_square = 1.0 / square;
     let depth_a = dot(a, way) * per_square;
@@ -121,11 +121,11 @@ fn on_line(d: vec3f, p: vec3f) -> vec3f {
 }
 
 // A − S of an edge, times what is covered on its left; `inside`: the centre is, too.
-fn share_of_edge(light: WedgeLight, p: vec3f, start: vec3f, end: vec3f, inside: bool) -> f32 {
+fn share_of_edge(light: AreaLight, p: vec3f, start: vec3f, end: vec3f, inside: bool) -> f32 {
     let a = start - p;
     let b = end - p;
-    if FACE == BALL {
-        let c = across_ball(a, b, -p);
+    if FACE == SPHERE {
+        let c = across_sphere(a, b, -p);
         return select(0.0, disc_term(c, inside), c.hit);
     }
     if light.parallel != 0u {
@@ -150,6 +150,6 @@ fn share_of_edge(light: WedgeLight, p: vec3f, start: vec3f, end: vec3f, inside: 
 }
 
 // What the light looks like, one of the constants.
-override FACE: u32 = BALL;
-// The light is a piece of a disc or a ball.
+override FACE: u32 = SPHERE;
+// The light is a piece of a disc or a sphere.
 override SPLIT: bool = false;

@@ -1,6 +1,6 @@
 // The depth of what places in a smaller buffer stand for.
 
-@group(1) @binding(0) var<uniform> light: WedgeLight;
+@group(1) @binding(0) var<uniform> light: AreaLight;
 
 @fragment
 fn copy_depth(@builtin(position) at: vec4f) -> @builtin(frag_depth) f32 {

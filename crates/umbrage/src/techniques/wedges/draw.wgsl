@@ -1,6 +1,6 @@
 // Adds up how much of the light is covered: hard shadows by the sides of volumes, then what every edge's wedge adds to them.
 
-@group(1) @binding(0) var<uniform> light: WedgeLight;
+@group(1) @binding(0) var<uniform> light: AreaLight;
 @group(1) @binding(1) var<uniform> eye: Eye;
 @group(1) @binding(2) var<storage, read> wedges: array<Wedge>;
 @group(1) @binding(3) var<storage, read> caps: array<Cap>;

@@ -1,21 +1,17 @@
 // Builds the wedge of every silhouette edge that was listed: see `wedge` in the core crate.
 
-@group(0) @binding(2) var<storage, read> list: array<u32>;
+@group(0) @binding(1) var<storage, read> list: array<u32>;
 @group(1) @binding(2) var<storage, read> positions: array<f32>;
 @group(1) @binding(4) var<storage, read> instances: array<Instance>;
-@group(2) @binding(0) var<uniform> light: WedgeLight;
+@group(2) @binding(0) var<uniform> light: AreaLight;
 @group(2) @binding(1) var<storage, read_write> wedges: array<Wedge>;
 @group(2) @binding(2) var<storage, read_write> draw: array<u32, 15>;
-// Of casters, if the light is split.
-@group(2) @binding(3) var<storage, read> anchors: array<Anchor>;
 
 // Wedges that an instance draws.
 const GROUP: u32 = 64u;
 
 // Depth that is behind everything.
 override FAR: f32 = 0.0;
-// The light is a piece of a disc or a ball.
-override SPLIT: bool = false;
 // Bodies are cut in two.
 override HALVES: bool = false;
 
@@ -191,7 +187,7 @@ fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     }
     let entry = list[list[0] + number];
     let slot = entry >> 2u;
-    let caster = chunks[slot / CHUNK];
+    let caster = list[HEADER + slot / CHUNK];
     let edge = edges[casters[caster].first_edge + slot - casters[caster].edge_chunk * CHUNK];
     let is_turned = ((entry & 1u) != 0u) != ((casters[caster].flags & MIRRORED) != 0u);
     let one = place(caster, edge.start);
@@ -204,10 +200,7 @@ fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let b = to_light(light, wedge.eye_end);
     wedge.start = a;
     wedge.end = b;
-    wedge.anchor = Anchor(middle(light), 0.0, vec3f(1.0, 0.0, 0.0), 0.0);
-    if SPLIT {
-        wedge.anchor = anchors[caster];
-    }
+    wedge.anchor = Anchor(casters[caster].seen_from, 0.0, casters[caster].axis, 0.0);
     wedge.plane = plane_of(&wedge);
     wedge.eye_inside = f32(0.0 >= wedge.plane.w);
     wedge.from_infinity = f32((casters[caster].flags & COUNT_FROM_INFINITY) != 0u);

@@ -5,8 +5,6 @@
 mod budget;
 mod draws;
 mod groups;
-mod light;
-mod mask;
 mod options;
 mod piece;
 mod pipelines;
@@ -16,17 +14,15 @@ mod targets;
 mod technique;
 mod views;
 
+use crate::area_light::{AREA_LIGHT as LIGHT, Anchor, AreaLight};
 use crate::casters::{EDGES_WGSL, INSTANCES_WGSL, Instance};
 use crate::depth_maps::Eye;
 use crate::params::{Param, ParamKind};
 use crate::shader::{FULLSCREEN, RECEIVERS, Shader};
 use crate::silhouettes::{Caster, FIND_SHADER};
 use crate::technique::TechniqueInfo;
-use light::Anchor;
-use light::WedgeLight;
 use umbrage_core::LightKinds;
 
-const LIGHT: &str = include_str!("light.wgsl");
 const COVERAGE: &str = include_str!("coverage.wgsl");
 const RECORD: &str = include_str!("record.wgsl");
 const BODY: &str = include_str!("body.wgsl");
@@ -35,25 +31,25 @@ const CELL: &str = include_str!("cell.wgsl");
 const MAKE_SHADER: Shader = Shader {
     name: "make wedges",
     parts: &[INSTANCES_WGSL, EDGES_WGSL, LIGHT, RECORD, BODY, include_str!("make.wgsl")],
-    layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
+    layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
 };
 
 const BUNDLE_SHADER: Shader = Shader {
     name: "bundle wedges",
     parts: &[LIGHT, RECORD, BODY, include_str!("bundle.wgsl")],
-    layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT],
+    layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT],
 };
 
 const CAPS_SHADER: Shader = Shader {
     name: "make caps",
     parts: &[INSTANCES_WGSL, EDGES_WGSL, LIGHT, RECORD, include_str!("caps.wgsl")],
-    layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
+    layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
 };
 
 const DRAW_SHADER: Shader = Shader {
     name: "wedges",
     parts: &[RECEIVERS, LIGHT, COVERAGE, CELL, RECORD, include_str!("draw.wgsl"), include_str!("term_analytic.wgsl")],
-    layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT, Eye::LAYOUT],
+    layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT, Eye::LAYOUT],
 };
 
 const RESOLVE_SHADER: Shader = Shader {
@@ -67,7 +63,7 @@ const RESOLVE_SHADER: Shader = Shader {
         include_str!("resolve.wgsl"),
         include_str!("horizon_analytic.wgsl"),
     ],
-    layouts: &[WedgeLight::LAYOUT, Eye::LAYOUT],
+    layouts: &[AreaLight::LAYOUT, Eye::LAYOUT],
 };
 
 /// What a loop or a caster that was drawn apart comes to.
@@ -76,7 +72,7 @@ const APART_SHADER: Shader = Shader { name: "a loop's shares", parts: &[include_
 const DEPTH_SHADER: Shader = Shader {
     name: "depth of wedges",
     parts: &[FULLSCREEN, RECEIVERS, LIGHT, include_str!("depth.wgsl")],
-    layouts: &[WedgeLight::LAYOUT, Eye::LAYOUT],
+    layouts: &[AreaLight::LAYOUT, Eye::LAYOUT],
 };
 
 const PARAMS: &[Param] = &[
@@ -89,10 +85,9 @@ const PARAMS: &[Param] = &[
     },
     Param {
         name: "combine",
-        help: "What becomes of casters that hide the same part of the light: their shares add up; the largest counts; or every point keeps a bit \
-               for each sample of the light, which triangles strike out.",
+        help: "What becomes of casters that hide the same part of the light: their shares add up, or the largest counts.",
         unit: "",
-        kind: ParamKind::Choice { values: &["sum", "max", "bitmask"] },
+        kind: ParamKind::Choice { values: &["sum", "max"] },
     },
     Param {
         name: "cull",
@@ -120,16 +115,10 @@ const PARAMS: &[Param] = &[
     },
     Param {
         name: "coverage",
-        help: "Where the share that an edge covers of a ball, an ellipsoid, a disc or a sun comes from: a formula, or two look-ups of 32³ \
+        help: "Where the share that an edge covers of a sphere, an ellipsoid, a disc or a sun comes from: a formula, or two look-ups of 32³ \
                values. Textured rectangles always have a table, other lights none.",
         unit: "",
         kind: ParamKind::Choice { values: &["analytic", "table"] },
-    },
-    Param {
-        name: "samples",
-        help: "Samples of the light with `combine = bitmask`; rounded up to a multiple of 32.",
-        unit: "",
-        kind: ParamKind::Int { min: 32, max: 256, default: 256 },
     },
     Param {
         name: "radius",
@@ -171,7 +160,6 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
         tables::RESOLVE_PICTURE_SHADER,
         views::VIEWS_SHADER,
         views::BODIES_SHADER,
-        mask::MASK_SHADER,
     ],
     readme: include_str!("README.md"),
     make: |gpu, settings| Ok(Box::new(technique::Wedges::new(gpu, settings)?)),

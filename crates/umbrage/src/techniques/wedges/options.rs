@@ -11,7 +11,6 @@ use crate::{error::Error, gpu::Gpu};
 pub(super) enum Combine {
     Sum,
     Max,
-    Bitmask,
 }
 
 /// What is drawn in one call.
@@ -34,7 +33,6 @@ pub(super) struct Options {
     pub budget_ms: f64,
     /// The light is split into so many columns and rows.
     pub split: usize,
-    pub samples: u32,
     pub point_radius: f64,
     /// The host leaves surfaces out of the receivers that cast, such as those that face away.
     pub unseen: bool,
@@ -44,7 +42,6 @@ impl Options {
     pub fn new(gpu: &Gpu, settings: &Settings) -> Result<Self, Error> {
         let combine = match settings.choice("combine") {
             "max" => Combine::Max,
-            "bitmask" => Combine::Bitmask,
             _ => Combine::Sum,
         };
         let batch = match settings.choice("batch") {
@@ -60,7 +57,6 @@ impl Options {
             scale: settings.choice("scale").trim_start_matches("1/").parse().unwrap_or(1),
             budget_ms: settings.float("budget-ms"),
             split: settings.int("split-light") as usize,
-            samples: settings.int("samples") as u32,
             point_radius: settings.float("radius"),
             unseen: settings.choice("unseen") == "on",
         };

@@ -3,8 +3,6 @@
 use super::draws::Draw;
 use super::groups::Group;
 use super::groups::find_groups;
-use super::light::Form;
-use super::light::Frame;
 use super::options::Batch;
 use super::options::Options;
 use super::pipelines::Key;
@@ -19,6 +17,7 @@ use super::targets::GROUP;
 use super::targets::Needs;
 use super::targets::SINGLES;
 use super::targets::Target;
+use crate::area_light::{Form, Frame, ROUNDING};
 use crate::casters::Edges;
 use crate::depth_maps::Eye;
 use crate::fullscreen::attachment;
@@ -33,9 +32,6 @@ const ROW: u32 = 65_535;
 /// most of one a window of edges would find nothing to do.
 const WINDOW: u32 = 16;
 const MOST_GROUPS: u32 = 32;
-
-/// A few roundings of single precision.
-pub(super) const ROUNDING: f64 = 1e-6;
 
 /// Corners of a body and of a side, by which vertices are numbered.
 const BODY_CORNERS: u32 = 6;
@@ -106,7 +102,6 @@ impl Piece {
             wedges: self.silhouettes.room(Part::PassSides),
             caps: self.selection.caps.len() as u32,
             slots: self.eye_counts.len() as u32,
-            anchors: if self.is_split() { self.selection.anchors.len() as u32 } else { 0 },
         };
         if self.buffers.as_ref().is_none_or(|b| !b.hold(&needs)) {
             self.buffers = Some(Buffers::new(gpu, pipelines, &needs)?);
@@ -115,7 +110,7 @@ impl Piece {
         if options.bundles() {
             pipelines.prepare_making(gpu, Making::Bundles);
         }
-        pipelines.prepare_making(gpu, Making::Caps { split: self.is_split() });
+        pipelines.prepare_making(gpu, Making::Caps);
         Ok(())
     }
 
@@ -146,7 +141,7 @@ impl Piece {
     }
 
     fn making(&self, view: &View<'_>, options: &Options) -> Making {
-        Making::Wedges { reversed: is_reversed(view), split: self.is_split(), halves: options.halves() }
+        Making::Wedges { reversed: is_reversed(view), halves: options.halves() }
     }
 
     /// Finds silhouettes and builds wedges.
@@ -161,14 +156,11 @@ impl Piece {
         let no_bodies = [GROUP * BODY_INDICES, 0, 0, 0, 0];
         passes.upload(&buffers.bodies, bytemuck::cast_slice(&[no_bodies; 3]));
         passes.upload(&buffers.singles, &[0; 8]);
-        if self.is_split() {
-            passes.upload(&buffers.anchors, bytemuck::cast_slice(&self.selection.anchors));
-        }
         self.silhouettes.record(passes, edges);
         let Some(found) = self.silhouettes.found_by_gpu() else { return };
         let mut pass = passes.compute("build wedges");
         pass.set_bind_group(0, found, &[]);
-        pass.set_bind_group(1, &edges.draw, &[]);
+        pass.set_bind_group(1, &edges.make_edges, &[]);
         if let Some(making) = r.pipelines.making(self.making(view, r.options)) {
             let groups = self.silhouettes.room(Part::PassSides).div_ceil(GROUP);
             pass.set_pipeline(making);
@@ -183,9 +175,10 @@ impl Piece {
             pass.dispatch_workgroups(groups.min(MOST_GROUPS), 1, 1);
             pass.set_bind_group(0, found, &[]);
         }
-        let caps = r.pipelines.making(Making::Caps { split: self.is_split() });
+        let caps = r.pipelines.making(Making::Caps);
         if let Some(caps) = caps.filter(|_| chunks > 0) {
             pass.set_pipeline(caps);
+            pass.set_bind_group(1, &edges.make_triangles, &[]);
             pass.set_bind_group(2, &buffers.make_caps, &[]);
             pass.dispatch_workgroups(chunks.min(ROW), chunks.div_ceil(ROW), 1);
         }

@@ -6,8 +6,8 @@ use super::CAPS_SHADER;
 use super::DEPTH_SHADER;
 use super::MAKE_SHADER;
 use super::draws::Draw;
-use super::light::Face;
 use super::tables::Term;
+use crate::area_light::Face;
 use crate::casters::Edges;
 use crate::fullscreen::{FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, layout, texture};
 use crate::receivers::Receivers;
@@ -49,13 +49,12 @@ pub(super) enum Making {
     Wedges {
         /// Near is 1.
         reversed: bool,
-        split: bool,
         halves: bool,
     },
     /// Puts wedges together that are drawn as one.
     Bundles,
     /// Makes the caps of what is counted from infinity.
-    Caps { split: bool },
+    Caps,
 }
 
 /// A drawing pipeline.
@@ -100,8 +99,8 @@ impl Pipelines {
         let (format, loop_format) =
             if blends { (Format::Rg32Float, Format::Rgba32Float) } else { (Format::Rg16Float, Format::Rgba16Float) };
         Self {
-            make_layout: layout(gpu, "make wedges", compute, &[UNIFORM, STORAGE_WRITE, STORAGE_WRITE, STORAGE]),
-            caps_layout: layout(gpu, "make caps", compute, &[UNIFORM, STORAGE, STORAGE_WRITE, STORAGE]),
+            make_layout: layout(gpu, "make wedges", compute, &[UNIFORM, STORAGE_WRITE, STORAGE_WRITE]),
+            caps_layout: layout(gpu, "make caps", compute, &[UNIFORM, STORAGE, STORAGE_WRITE]),
             bundle_layout: layout(
                 gpu,
                 "bundle wedges",
@@ -129,15 +128,16 @@ impl Pipelines {
             return;
         }
         let made = match key {
-            Making::Wedges { reversed, split, halves } => {
+            Making::Wedges { reversed, halves } => {
                 let far = if reversed { 0.0 } else { 1.0 };
-                let constants = [("FAR", far), ("SPLIT", on(split)), ("HALVES", on(halves))];
-                self.of_casters(gpu, &MAKE_SHADER, &self.make_layout, &constants)
+                let constants = [("FAR", far), ("HALVES", on(halves))];
+                let groups = [&self.silhouettes, &Edges::make_edges_layout(gpu), &self.make_layout];
+                compute(gpu, &MAKE_SHADER, &groups, &constants)
             }
-            Making::Bundles => compute(gpu, &BUNDLE_SHADER, &[Some(&self.bundle_layout)], &[]),
-            Making::Caps { split } => {
-                let constants = [("SPLIT", on(split))];
-                self.of_casters(gpu, &CAPS_SHADER, &self.caps_layout, &constants)
+            Making::Bundles => compute(gpu, &BUNDLE_SHADER, &[&self.bundle_layout], &[]),
+            Making::Caps => {
+                let groups = [&self.silhouettes, &Edges::make_triangles_layout(gpu), &self.caps_layout];
+                compute(gpu, &CAPS_SHADER, &groups, &[])
             }
         };
         self.making.push((key, made));
@@ -239,28 +239,18 @@ impl Pipelines {
         let stages = Stages::new(&module, how.vertex, how.fragment);
         stages.pipeline(gpu, &[&self.apart_layout], None, Some(how.target(self)))
     }
-
-    /// What reads silhouettes.
-    fn of_casters(
-        &self,
-        gpu: &Gpu,
-        shader: &Shader,
-        own: &wgpu::BindGroupLayout,
-        constants: &[(&str, f64)],
-    ) -> wgpu::ComputePipeline {
-        compute(gpu, shader, &[Some(&self.silhouettes), Some(&Edges::draw_layout(gpu)), Some(own)], constants)
-    }
 }
 
 fn compute(
     gpu: &Gpu,
     shader: &Shader,
-    groups: &[Option<&wgpu::BindGroupLayout>],
+    groups: &[&wgpu::BindGroupLayout],
     constants: &[(&str, f64)],
 ) -> wgpu::ComputePipeline {
+    let groups: Vec<_> = groups.iter().map(|group| Some(*group)).collect();
     let layout = gpu
         .device
-        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { bind_group_layouts: groups, ..Default::default() });
+        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { bind_group_layouts: &groups, ..Default::default() });
     gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(shader.name),
         layout: Some(&layout),

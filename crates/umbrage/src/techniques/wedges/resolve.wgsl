@@ -1,6 +1,6 @@
 // From covered shares to visibility.
 
-@group(1) @binding(0) var<uniform> light: WedgeLight;
+@group(1) @binding(0) var<uniform> light: AreaLight;
 @group(1) @binding(1) var<uniform> eye: Eye;
 // A layer for each piece of the light.
 @group(1) @binding(2) var covered: texture_2d_array<f32>;
@@ -25,7 +25,7 @@ fn beyond_on_disc(distance: f32) -> f32 {
 fn below_horizon(p: vec3f, normal: vec3f) -> f32 {
     let way = way_to_light(light, p);
     let height = dot(normal, way);
-    if FACE == BALL {
+    if FACE == SPHERE {
         // Of the face that is perpendicular to the way.
         let aside = dot(normal, normal) - height * height / dot(way, way);
         return beyond_on_disc(height * inverseSqrt(max(aside, 1e-30)));

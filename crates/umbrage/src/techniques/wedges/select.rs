@@ -1,15 +1,14 @@
 //! Which casters throw shadows into the view, and from where each is counted.
 
-use super::light::Anchor;
-use super::light::Form;
-use crate::casters::{self, Casters, MeshEdges, Placed, before_eye};
+use crate::area_light::{Form, casters_in_view, may_touch};
+use crate::casters::{MeshEdges, Placed, before_eye};
 use crate::silhouettes::Throw;
 use crate::{error::Error, gpu::Gpu, view::View};
 use std::ops::Range;
 use umbrage_core::Bounds;
 use umbrage_core::adjacency::Adjacency;
 use umbrage_core::glam::DVec4;
-use umbrage_core::shadow_hull::{Convex, segment_touches, shadow_end, soft_shadow_hull};
+use umbrage_core::shadow_hull::{segment_touches, shadow_end};
 use umbrage_core::silhouette::Rule;
 
 /// A mesh with no more open edges than this, and no flatter, is a body with holes and not a sheet.
@@ -26,8 +25,6 @@ pub(super) const CHUNK: u32 = 64;
 #[derive(Default)]
 pub(super) struct Selection {
     pub throws: Vec<Throw>,
-    /// Of each throw where its silhouette is seen from.
-    pub anchors: Vec<Anchor>,
     /// Of each throw the shadows that the eye is in: of its sides that face the light, and of those that face away, see `Wedge::weights`.
     /// `None`: it is counted from infinity.
     pub eye_counts: Vec<Option<[u32; 2]>>,
@@ -53,35 +50,22 @@ impl Selection {
     /// Chooses.
     pub fn choose(&mut self, gpu: &Gpu, view: &View<'_>, form: &Form, unseen: bool) -> Result<(), Error> {
         self.throws.clear();
-        self.anchors.clear();
         self.eye_counts.clear();
         self.caps.clear();
-        self.found.clear();
-        let casters = view.casters;
-        if !view.light.casts || casters.casting().is_empty() {
+        casters_in_view(view, form, &mut self.found);
+        if self.found.is_empty() {
             return Ok(());
         }
-        let edges = casters.edges(gpu)?;
-        let hull = form.hull();
-        let receivers = casters.receivers_bounds();
-        if let Some(body) = soft_shadow_hull(&view.camera, &receivers, &hull) {
-            casters.casting().query(&body, &mut self.found);
-        }
-        self.found.sort_unstable();
+        let edges = view.casters.edges(gpu)?;
         // Segments from the eye to what is seen stay in this box. One plane a caster, so that neighbours share corners.
         let seen = view.seen().with(view.camera.eye);
         let seen = seen.grown(BEHIND * seen.size().length());
         let rounding = view.rounding();
         let around_eye = view.around_eye().grown(rounding);
         let scope = Scope { view, form, seen, rounding, around_eye, unseen };
-        let lights: Vec<_> = hull.iter().map(|center| casters::Light { center: *center, receivers }).collect();
         for i in 0..self.found.len() {
             let place = self.found[i];
-            let placed = &casters.placed()[place as usize];
-            let is_empty = placed.bounds.is_empty() || placed.sides.is_none();
-            if is_empty || lights.iter().all(|light| placed.shadows_nothing(light)) {
-                continue;
-            }
+            let placed = &view.casters.placed()[place as usize];
             let mesh = edges.of_mesh(placed.mesh);
             if !mesh.adjacency.edges.is_empty() {
                 self.add(&scope, place, placed, mesh);
@@ -100,7 +84,10 @@ impl Selection {
         let is_open_to_eye = scope.unseen || placed.masked || is_cut();
         let shows_inside = holds_eye || is_open_to_eye || (light.w != 0.0 && bounds.contains(light.truncate()));
         let end = shadow_end(&scope.seen, &placed.bounds, light);
-        let throw = throw(place, light, &mesh.adjacency, end, shows_inside);
+        let throw = Throw {
+            anchor: [anchor, axis].map(|v| v.as_vec3()),
+            ..throw(place, light, &mesh.adjacency, end, shows_inside)
+        };
         let eye_count = if is_open_to_eye {
             None
         } else if segment_touches(view.camera.eye, light, &bounds, scope.rounding) {
@@ -109,8 +96,6 @@ impl Selection {
             Some([0; 2])
         };
         self.push(throw, eye_count, mesh.triangle_count);
-        let [place, axis] = [anchor, axis].map(|v| v.as_vec3().to_array());
-        self.anchors.push(Anchor { place, axis, ..Anchor::default() });
     }
 
     /// What is counted from infinity has its surface drawn, and where its shadow ends.
@@ -139,28 +124,6 @@ fn weights(throw: &Throw, [facing, away]: [u32; 2]) -> [u32; 2] {
     }
 }
 
-/// Whether a light may be at a vertex, an edge or a triangle of what casts.
-pub(super) fn is_on_a_caster(gpu: &Gpu, view: &View<'_>, light: DVec4) -> Result<bool, Error> {
-    let casters = view.casters;
-    if light.w == 0.0 || casters.casting().is_empty() {
-        return Ok(false);
-    }
-    let edges = casters.edges(gpu)?;
-    let around = Bounds::of([light.truncate()]).grown(100.0 * view.rounding());
-    let mut found = Vec::new();
-    casters.casting().query(&Convex::hull(&around.corners().map(|p| p.extend(1.0))), &mut found);
-    Ok(found.iter().map(|place| &casters.placed()[*place as usize]).any(|placed| {
-        placed.bounds.overlaps(&around) && may_touch(casters, placed, edges.of_mesh(placed.mesh), &around)
-    }))
-}
-
-/// Whether a triangle of a caster may touch a box.
-fn may_touch(casters: &Casters, placed: &Placed, mesh: &MeshEdges, bounds: &Bounds) -> bool {
-    let (Some(sides), false) = (&placed.sides, placed.posed) else { return true };
-    let part = &casters.meshes()[placed.mesh as usize].mesh;
-    mesh.eye_tree(part).may_touch(part, &mesh.adjacency, &bounds.transformed(&sides.mesh_from_world))
-}
-
 /// A closed body throws the shadow of its far side: both sides would cover the light twice. Of one with holes, or whose inside is seen, both
 /// count apart. Every other mesh is a sheet, which covers the light once wherever it is.
 fn throw(place: u32, light: DVec4, mesh: &Adjacency, end: DVec4, shows_inside: bool) -> Throw {
@@ -176,5 +139,6 @@ fn throw(place: u32, light: DVec4, mesh: &Adjacency, end: DVec4, shows_inside: b
         dark_cap: false,
         end,
         reach: 0.0,
+        anchor: Default::default(),
     }
 }

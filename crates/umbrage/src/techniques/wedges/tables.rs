@@ -6,10 +6,7 @@ use super::DRAW_SHADER;
 use super::LIGHT;
 use super::RECORD;
 use super::RESOLVE_SHADER;
-use super::light::Anchor;
-use super::light::Face;
-use super::light::Form;
-use super::light::WedgeLight;
+use crate::area_light::{Anchor, AreaLight, Face, Form};
 use crate::depth_maps::Eye;
 use crate::fullscreen::{STORAGE, bind, layout};
 use crate::gpu::Gpu;
@@ -26,14 +23,14 @@ use wgpu::util::DeviceExt;
 pub(super) const TABLE_SHADER: Shader = Shader {
     name: "wedges by table",
     parts: &[RECEIVERS, LIGHT, COVERAGE, CELL, RECORD, include_str!("draw.wgsl"), include_str!("term_table.wgsl")],
-    layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT, Eye::LAYOUT],
+    layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT, Eye::LAYOUT],
 };
 
 /// `DRAW_SHADER` with [`Term::Picture`].
 pub(super) const PICTURE_SHADER: Shader = Shader {
     name: "wedges of a picture",
     parts: &[RECEIVERS, LIGHT, COVERAGE, CELL, RECORD, include_str!("draw.wgsl"), include_str!("term_picture.wgsl")],
-    layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT, Eye::LAYOUT],
+    layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT, Eye::LAYOUT],
 };
 
 /// `RESOLVE_SHADER` with [`Term::Picture`].
@@ -48,7 +45,7 @@ pub(super) const RESOLVE_PICTURE_SHADER: Shader = Shader {
         include_str!("resolve.wgsl"),
         include_str!("horizon_picture.wgsl"),
     ],
-    layouts: &[WedgeLight::LAYOUT, Eye::LAYOUT],
+    layouts: &[AreaLight::LAYOUT, Eye::LAYOUT],
 };
 
 /// Values along each axis of a disc's table (PX 4.2).
@@ -124,7 +121,7 @@ struct PicturePiece {
 }
 
 impl Tables {
-    /// `for_discs`: balls, discs and suns go by a table, too.
+    /// `for_discs`: spheres, discs and suns go by a table, too.
     pub fn new(gpu: &Gpu, for_discs: bool) -> Self {
         let nothing = bind(gpu, "shares of a light", &Term::Analytic.layout(gpu), &[]);
         Self { for_discs, nothing, disc: None, picture: None }
@@ -167,7 +164,7 @@ impl Tables {
     pub fn term(&self, face: Face) -> Term {
         match face {
             Face::Picture => Term::Picture,
-            Face::Ball | Face::Disc if self.for_discs => Term::Table,
+            Face::Sphere | Face::Disc if self.for_discs => Term::Table,
             _ => Term::Analytic,
         }
     }

@@ -1,16 +1,14 @@
 //! Buffers and textures of a light's wedges.
 
-use super::light::Anchor;
-use super::light::WedgeLight;
-use super::light::scaled;
 use super::pipelines::Pipelines;
 use super::select::CHUNK;
+use crate::area_light::{AreaLight, scaled};
 use crate::depth_maps::Eye;
 use crate::fullscreen::{bind, target_texture};
 use crate::{error::Error, gpu::Gpu, receivers::Receivers, view::View};
 
 /// Bytes of a record, see `record.wgsl`.
-const RECORD: u64 = 352;
+const RECORD: u64 = 336;
 
 /// Where in [`Buffers::bodies`] the arguments of the draws of single wedges and of bundles are.
 pub(super) const SINGLES: u64 = 20;
@@ -34,8 +32,6 @@ pub(super) struct Needs {
     pub caps: u32,
     /// Casters that are drawn apart, and one for all others.
     pub slots: u32,
-    /// Of casters, if the light is split.
-    pub anchors: u32,
 }
 
 /// What grows with casters, of one piece of a light.
@@ -50,7 +46,6 @@ pub(super) struct Buffers {
     pub cap_chunks: wgpu::Buffer,
     pub caps: wgpu::Buffer,
     pub eye_count: wgpu::Buffer,
-    pub anchors: wgpu::Buffer,
     pub make: wgpu::BindGroup,
     pub bundle: wgpu::BindGroup,
     pub make_caps: wgpu::BindGroup,
@@ -78,7 +73,7 @@ impl Buffers {
                 mapped_at_creation: false,
             })
         };
-        let light = buffer("wedge light", size_of::<WedgeLight>() as u64, Usage::UNIFORM);
+        let light = buffer("wedge light", size_of::<AreaLight>() as u64, Usage::UNIFORM);
         let eye = buffer("eye", size_of::<Eye>() as u64, Usage::UNIFORM);
         // Half as much again, so that a moving camera does not make it grow all the time.
         let wedges = buffer("wedges", (size + size / 2).clamp(RECORD * 64, limit).next_multiple_of(16), Usage::STORAGE);
@@ -92,14 +87,13 @@ impl Buffers {
         let cap_chunks = some("chunks of caps", needs.caps, 8, Usage::empty());
         let caps = some("caps", needs.caps, CAPS, Usage::empty());
         let eye_count = some("shadows of the eye", needs.slots, 8, Usage::empty());
-        let anchors = some("where silhouettes are seen from", needs.anchors, size_of::<Anchor>(), Usage::empty());
         let all = |buffers: &[&wgpu::Buffer], layout| {
             let entries: Vec<_> = buffers.iter().map(|b| b.as_entire_binding()).collect();
             bind(gpu, "wedges", layout, &entries)
         };
         Ok(Self {
-            make: all(&[&light, &wedges, &bodies, &anchors], &pipelines.make_layout),
-            make_caps: all(&[&light, &cap_chunks, &caps, &anchors], &pipelines.caps_layout),
+            make: all(&[&light, &wedges, &bodies], &pipelines.make_layout),
+            make_caps: all(&[&light, &cap_chunks, &caps], &pipelines.caps_layout),
             bundle: all(&[&light, &wedges, &bodies, &bundles, &singles], &pipelines.bundle_layout),
             draw: all(&[&light, &eye, &wedges, &caps, &bundles, &singles], &pipelines.draw_layout),
             depth: all(&[&light], &pipelines.depth_layout),
@@ -112,7 +106,6 @@ impl Buffers {
             cap_chunks,
             caps,
             eye_count,
-            anchors,
         })
     }
 
@@ -121,11 +114,10 @@ impl Buffers {
             && self.cap_chunks.size() >= u64::from(needs.caps) * 8
             && self.caps.size() >= u64::from(needs.caps) * CAPS as u64
             && self.eye_count.size() >= u64::from(needs.slots) * 8
-            && self.anchors.size() >= u64::from(needs.anchors) * size_of::<Anchor>() as u64
     }
 
     pub fn bytes(&self) -> u64 {
-        let small = [&self.light, &self.eye, &self.bodies, &self.cap_chunks, &self.eye_count, &self.anchors];
+        let small = [&self.light, &self.eye, &self.bodies, &self.cap_chunks, &self.eye_count];
         small.into_iter().chain([&self.wedges, &self.caps, &self.bundles, &self.singles]).map(|b| b.size()).sum()
     }
 }
@@ -142,7 +134,7 @@ impl Whole {
     pub fn new(gpu: &Gpu) -> Self {
         let uniform = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         Self {
-            light: gpu.buffer("light", &[WedgeLight::default()], uniform),
+            light: gpu.buffer("light", &[AreaLight::default()], uniform),
             eye: gpu.buffer("eye", &[Eye::default()], uniform),
             pieces: gpu.buffer("pieces of the light", &[[0_f32; 4]; MOST_PIECES], uniform),
         }

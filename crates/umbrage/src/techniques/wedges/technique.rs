@@ -2,21 +2,13 @@
 
 use super::budget::Budget;
 use super::draws::Draw;
-use super::light::Face;
-use super::light::Form;
-use super::light::Frame;
-use super::mask::Mask;
-use super::options::Combine;
 use super::options::Options;
 use super::piece::Piece;
-use super::piece::ROUNDING;
 use super::piece::Recording;
 use super::piece::is_reversed;
 use super::pipelines::Key;
 use super::pipelines::Pipelines;
 use super::pipelines::Resolve;
-use super::select::Selection;
-use super::select::is_on_a_caster;
 use super::tables::Tables;
 use super::tables::Term;
 use super::targets::Buffers;
@@ -28,6 +20,7 @@ use super::targets::Whole;
 use super::targets::lent_depth;
 use super::views::Drawn;
 use super::views::Views;
+use crate::area_light::{Face, Form, Frame, ROUNDING, is_on_a_caster};
 use crate::casters::Edges;
 use crate::depth_maps::Eye;
 use crate::fullscreen::bind;
@@ -50,9 +43,6 @@ pub(super) struct Wedges {
     apart: Vec<(wgpu::TextureView, wgpu::Buffer, wgpu::BindGroup)>,
     budget: Budget,
     tables: Tables,
-    /// In place of wedges.
-    mask: Option<Mask>,
-    mask_selection: Selection,
     casting: u32,
     draws: u32,
     gpu: Gpu,
@@ -76,8 +66,6 @@ impl Wedges {
             apart: Vec::new(),
             budget: Budget::new(options.budget_ms, options.scale),
             tables: Tables::new(gpu, settings.choice("coverage") == "table"),
-            mask: None,
-            mask_selection: Selection::default(),
             casting: 0,
             draws: 0,
             gpu: gpu.clone(),
@@ -86,14 +74,8 @@ impl Wedges {
         })
     }
 
-    /// Whether the light is drawn as samples and not as wedges.
-    fn is_masked(&self) -> bool {
-        self.options.combine == Combine::Bitmask
-    }
-
     fn is_lit(&self) -> bool {
-        let thrown = |piece: &Piece| !piece.selection.throws.is_empty();
-        if self.is_masked() { self.mask_selection.throws.is_empty() } else { !self.pieces.iter().any(thrown) }
+        self.pieces.iter().all(|piece| piece.selection.throws.is_empty())
     }
 
     /// Cuts the light into its pieces, and chooses casters for each.
@@ -225,7 +207,7 @@ impl Wedges {
 
     /// What debug views show: nothing where no wedges are drawn.
     fn drawn(&self, view: &View<'_>) -> Option<Drawn<'_>> {
-        let form = self.form.filter(|form| !self.is_masked() && !self.is_lit() && !form.is_point())?;
+        let form = self.form.filter(|form| !self.is_lit() && !form.is_point())?;
         let (piece, target) = (self.pieces.first()?, self.target()?);
         let resolve = resolve_key(view, &form, self.tables.term(form.face), target);
         Some(Drawn {
@@ -324,22 +306,13 @@ impl Technique for Wedges {
             let what = "parallel projections, since shadows are counted from the eye; choose `volume` or a map".into();
             return Err(Error::Unsupported { technique: super::INFO.id.into(), what });
         }
-        // Masks have the picture in their samples.
-        let has_picture = !self.is_masked() && self.tables.prepare(gpu, view, self.options.split);
+        let has_picture = self.tables.prepare(gpu, view, self.options.split);
         let mut form = Form::of(&view.light.shape, has_picture, self.options.point_radius);
         if form.is_point() && is_on_a_caster(gpu, view, form.center)? {
             form = form.off_ties(view.rounding());
         }
         self.casting = view.casters.casting().len() as u32;
         self.form = Some(form);
-        if self.is_masked() {
-            self.mask_selection.choose(gpu, view, &form, false)?;
-            if !self.is_lit() {
-                let mask = self.mask.get_or_insert_with(|| Mask::new(gpu, self.options.samples));
-                mask.prepare(gpu, view, &form, &self.mask_selection, ROUNDING)?;
-            }
-            return Ok(());
-        }
         self.choose(gpu, view, &form)?;
         if self.is_lit() { Ok(()) } else { self.make_ready(gpu, view, &form) }
     }
@@ -353,13 +326,6 @@ impl Technique for Wedges {
             self.record_view(passes, view, visibility);
             return Ok(());
         };
-        let masked = self.is_masked();
-        if let Some(mask) = self.mask.as_mut().filter(|_| masked) {
-            mask.record(passes, view, &form, ROUNDING, visibility);
-            self.draws = 1;
-            self.record_view(passes, view, visibility);
-            return Ok(());
-        }
         self.draws = self.draw(passes, view, edges, &form, visibility);
         self.record_view(passes, view, visibility);
         self.budget.frame(passes.last_ms());
@@ -367,25 +333,16 @@ impl Technique for Wedges {
     }
 
     fn stats(&self) -> Stats {
-        let masked = self.is_masked();
-        let thrown = |selection: &Selection| selection.throws.len() as u32;
-        let thrown = match masked {
-            true => thrown(&self.mask_selection),
-            false => self.pieces.iter().map(|p| thrown(&p.selection)).max().unwrap_or(0),
-        };
+        let thrown = self.pieces.iter().map(|p| p.selection.throws.len() as u32).max().unwrap_or(0);
         let sides: u64 = self.pieces.iter().map(|p| u64::from(p.silhouettes.room(Part::PassSides))).sum();
         let pieces: u64 = self.pieces.iter().map(Piece::bytes).sum();
         let targets: u64 = self.targets.iter().map(Target::bytes).sum();
         Stats {
             draws: self.draws,
-            triangles: if masked { 0 } else { sides * 10 },
+            triangles: sides * 10,
             casters_drawn: thrown,
             casters_culled: self.casting.saturating_sub(thrown),
-            bytes: pieces
-                + targets
-                + self.tables.bytes()
-                + self.mask.as_ref().map_or(0, Mask::bytes)
-                + self.body_indices.size(),
+            bytes: pieces + targets + self.tables.bytes() + self.body_indices.size(),
         }
     }
 

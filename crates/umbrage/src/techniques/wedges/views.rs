@@ -4,12 +4,11 @@ use super::CELL;
 use super::COVERAGE;
 use super::LIGHT;
 use super::RECORD;
-use super::light::Anchor;
-use super::light::WedgeLight;
 use super::pipelines::Key;
 use super::pipelines::Resolve;
 use super::pipelines::compare;
 use super::targets::{BUNDLES, Buffers, GROUP, SINGLES, lent_depth};
+use crate::area_light::{Anchor, AreaLight};
 use crate::depth_maps::Eye;
 use crate::fullscreen::{FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout, target_texture, texture};
 use crate::shader::{FULLSCREEN, INSPECT, RECEIVERS, Shader};
@@ -39,7 +38,7 @@ pub(super) const BODIES_SHADER: Shader = Shader {
         include_str!("term_analytic.wgsl"),
         include_str!("view_bodies.wgsl"),
     ],
-    layouts: &[WedgeLight::LAYOUT, Anchor::LAYOUT, Eye::LAYOUT],
+    layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT, Eye::LAYOUT],
 };
 
 const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;

@@ -1,48 +1,14 @@
-//! The light as wedges and coverage see it.
+//! The form of a light: what it looks like, in a space of its own, and its pieces.
 
-use crate::shader::shader_struct;
-use crate::view::{View, off_ties};
+use crate::view::off_ties;
 use umbrage_core::LightShape;
 use umbrage_core::coverage::Cell;
-use umbrage_core::glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
-
-shader_struct! {
-    /// See `light.wgsl`.
-    pub(crate) struct WedgeLight {
-        clip_from_eye: [[f32; 4]; 4],
-        to_light: [[f32; 4]; 3],
-        from_light: [[f32; 4]; 3],
-        corners: [[f32; 4]; 4],
-        low: [f32; 4],
-        high: [f32; 4],
-        center: [f32; 3],
-        radius: f32,
-        eye_from_origin: [f32; 3],
-        parallel: u32,
-        rounding: f32,
-        cap_chunks: u32,
-        scale: u32,
-        handed: f32,
-        cell: [f32; 4],
-        cell_sides: [f32; 4],
-        cell_arc: [f32; 4],
-    }
-}
-
-shader_struct! {
-    /// See `light.wgsl`.
-    pub(crate) struct Anchor {
-        place: [f32; 3],
-        pad_a: f32,
-        axis: [f32; 3],
-        pad_b: f32,
-    }
-}
+use umbrage_core::glam::{DMat3, DVec2, DVec3, DVec4};
 
 /// What a light looks like, see `light.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Face {
-    Ball = 0,
+pub(crate) enum Face {
+    Sphere = 0,
     Disc = 1,
     Square = 2,
     Line = 3,
@@ -51,32 +17,21 @@ pub(super) enum Face {
 
 /// A light's form.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Form {
+pub(crate) struct Form {
     pub face: Face,
     /// A place (w = 1) or a direction (w = 0), in world space.
     pub center: DVec4,
     /// Takes differences of places to light space, see `light.wgsl`.
-    to_light: DMat3,
+    pub(super) to_light: DMat3,
     /// Its hull there.
-    corners: [DVec3; 4],
-    radius: f64,
+    pub(super) corners: [DVec3; 4],
+    pub(super) radius: f64,
     /// Half extents in world space, which casters are chosen by.
     half: [DVec3; 3],
-    /// Of a split disc or ball the piece that it is.
+    /// Of a split disc or sphere the piece that it is.
     pub cell: Option<Cell>,
     /// The share of the light that it is.
     pub weight: f64,
-}
-
-/// How a frame is drawn, for the shaders.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Frame {
-    /// The share of coordinates that single precision is off by.
-    pub rounding: f64,
-    /// Chunks of triangles whose caps are made.
-    pub cap_chunks: u32,
-    /// Pixels of the picture to one of the buffer of shares, along each side.
-    pub scale: u32,
 }
 
 /// Corners of the square in light space.
@@ -88,7 +43,7 @@ const LINE_WIDTH: f64 = 1e-3;
 
 /// What all lights start with.
 const WHOLE: Form = Form {
-    face: Face::Ball,
+    face: Face::Sphere,
     center: DVec4::ZERO,
     to_light: DMat3::IDENTITY,
     corners: [DVec3::ZERO; 4],
@@ -103,10 +58,10 @@ impl Form {
     pub fn of(shape: &LightShape, has_picture: bool, point_radius: f64) -> Self {
         match *shape {
             LightShape::Point { position } | LightShape::Spot { position, .. } => {
-                Self::ball(position, DMat3::IDENTITY, DVec3::splat(point_radius))
+                Self::sphere(position, DMat3::IDENTITY, DVec3::splat(point_radius))
             }
-            LightShape::Sphere { position, radius } => Self::ball(position, DMat3::IDENTITY, DVec3::splat(radius)),
-            LightShape::Ellipsoid { position, radii, rotation } => Self::ball(position, rotation, radii),
+            LightShape::Sphere { position, radius } => Self::sphere(position, DMat3::IDENTITY, DVec3::splat(radius)),
+            LightShape::Ellipsoid { position, radii, rotation } => Self::sphere(position, rotation, radii),
             LightShape::Directional { direction, angle_deg } => Self::sun(-direction, angle_deg.to_radians() * 0.5),
             LightShape::Disc { position, direction, radius } => {
                 let (x, y) = direction.any_orthonormal_pair();
@@ -121,13 +76,13 @@ impl Form {
         }
     }
 
-    fn ball(center: DVec3, rotation: DMat3, radii: DVec3) -> Self {
+    fn sphere(center: DVec3, rotation: DMat3, radii: DVec3) -> Self {
         let largest = radii.max_element();
         // A flat ellipsoid is the limit of thin ones, a point is in a space of metres.
         let radii = if largest > 1e-9 { radii.max(DVec3::splat(largest * 1e-6)) } else { DVec3::ZERO };
         let scale = if largest > 1e-9 { radii.recip() } else { DVec3::ONE };
         Self {
-            face: Face::Ball,
+            face: Face::Sphere,
             center: center.extend(1.0),
             to_light: DMat3::from_diagonal(scale) * rotation.transpose(),
             corners: [DVec3::ZERO; 4],
@@ -191,7 +146,7 @@ impl Form {
         let moved = |way: DVec3| self.center.truncate() + way;
         match self.face {
             _ if count <= 1 || self.is_point() => vec![*self],
-            Face::Ball | Face::Disc => Cell::grid(count).into_iter().map(|cell| self.piece(cell)).collect(),
+            Face::Sphere | Face::Disc => Cell::grid(count).into_iter().map(|cell| self.piece(cell)).collect(),
             Face::Line => {
                 (0..count).map(|i| Self { weight: 1.0 / of, ..Self::line(moved(x * at(i)), x / of) }).collect()
             }
@@ -212,7 +167,7 @@ impl Form {
         Self { corners, cell: Some(cell), weight: cell.around / std::f64::consts::TAU, ..*self }
     }
 
-    /// From where the silhouette of a caster around `place` is seen, in light space, and the direction in which the piece of a ball has its x.
+    /// From where the silhouette of a caster around `place` is seen, in light space, and the direction in which the piece of a sphere has its x.
     pub fn anchor(&self, place: DVec3) -> (DVec3, DVec3) {
         let Some(cell) = &self.cell else { return (DVec3::Z * (1.0 - self.center.w), DVec3::X) };
         let [x, y] = cell.center;
@@ -250,80 +205,11 @@ impl Form {
         hull.dedup();
         hull
     }
-
-    /// For the shaders.
-    pub fn uniform(&self, view: &View<'_>, frame: &Frame) -> WedgeLight {
-        let rounding = frame.rounding;
-        let eye = view.camera.eye;
-        let center = (self.center.truncate() - eye) * self.center.w;
-        let rows = |m: DMat3| [0, 1, 2].map(|i| m.row(i).extend(0.0).as_vec4().to_array());
-        let seen = view.seen();
-        let seen = seen.grown(4.0 * rounding * seen.largest_coordinate());
-        let corner = |p: DVec3| p.extend(0.0).as_vec4().to_array();
-        let clip = raster(view.receivers.size, frame.scale) * view.clip_from_eye();
-        let cell = self.cell.unwrap_or_else(|| Cell::grid(1)[0]);
-        let singles = |v: [f64; 4]| v.map(|c| c as f32);
-        WedgeLight {
-            clip_from_eye: clip.as_mat4().to_cols_array_2d(),
-            to_light: rows(self.to_light),
-            from_light: rows(self.to_light.inverse()),
-            corners: self.corners.map(corner),
-            low: corner(seen.min - eye),
-            high: corner(seen.max - eye),
-            center: center.as_vec3().to_array(),
-            radius: self.radius as f32,
-            eye_from_origin: (view.casters.origin() - eye).as_vec3().to_array(),
-            parallel: u32::from(self.center.w == 0.0),
-            rounding: rounding as f32,
-            cap_chunks: frame.cap_chunks,
-            scale: frame.scale,
-            handed: self.to_light.determinant().signum() as f32,
-            cell: singles([cell.low[0], cell.low[1], cell.high[0], cell.high[1]]),
-            cell_sides: singles(cell.sides),
-            cell_arc: singles([cell.arc_middle[0], cell.arc_middle[1], cell.arc, cell.around]),
-        }
-    }
-}
-
-/// Size of a buffer that has one place for `scale` pixels along each side, of those whose pixel is in the picture.
-pub(super) fn scaled((width, height): (u32, u32), scale: u32) -> (u32, u32) {
-    let of = |pixels: u32| pixels.saturating_sub(1 + scale / 2) / scale + 1;
-    (of(width), of(height))
-}
-
-/// Takes the picture's clip space to that of such a buffer, so that the middle of a place is that of the pixel it stands for.
-fn raster(size: (u32, u32), scale: u32) -> DMat4 {
-    let (width, height) = scaled(size, scale);
-    let of = |pixels: u32, places: u32| {
-        let share = f64::from(pixels) / f64::from(places * scale);
-        let moved = 0.5 - (f64::from(scale / 2) + 0.5) / f64::from(scale);
-        (share, share - 1.0 + 2.0 * moved / f64::from(places))
-    };
-    let ((x, right), (y, down)) = (of(size.0, width), of(size.1, height));
-    DMat4::from_cols(DVec4::X * x, DVec4::Y * y, DVec4::Z, DVec4::new(right, -down, 0.0, 1.0))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn places_of_smaller_buffers_are_pixels() {
-        for (size, scale) in [((512, 384), 1), ((512, 384), 2), ((511, 383), 2), ((640, 479), 4), ((9, 7), 4)] {
-            let (width, height) = scaled(size, scale);
-            let raster = raster(size, scale);
-            let ndc = |pixel: u32, of: u32| 2.0 * (f64::from(pixel) + 0.5) / f64::from(of) - 1.0;
-            for (x, y) in [(0, 0), (width - 1, height - 1), (width / 2, height / 3)] {
-                let (full_x, full_y) = (x * scale + scale / 2, y * scale + scale / 2);
-                assert!(full_x < size.0 && full_y < size.1, "{size:?} {scale}");
-                let got = raster * DVec4::new(ndc(full_x, size.0), -ndc(full_y, size.1), 0.0, 1.0);
-                assert!(
-                    (got.x - ndc(x, width)).abs() < 1e-12 && (got.y + ndc(y, height)).abs() < 1e-12,
-                    "{size:?} {scale}"
-                );
-            }
-        }
-    }
 
     #[test]
     fn pieces_make_up_the_light() {

@@ -1,8 +1,8 @@
-// A light in a space of its own: its centre is the origin and it is a ball of radius 1; or a disc of radius 1, or a square from −1 to
+// A light in a space of its own: its centre is the origin and it is a sphere of radius 1; or a disc of radius 1, or a square from −1 to
 // 1, in the plane z = 0; or a line from −1 to 1 along x. Light from infinitely far away comes from the directions (x, y, 1) of a
 // disc of radius 1.
 
-struct WedgeLight {
+struct AreaLight {
     clip_from_eye: mat4x4f,
     // Rows of the way to and fro: light space is rows · (p − centre) for p relative to the eye.
     to_light: array<vec4f, 3>,
@@ -34,17 +34,17 @@ struct WedgeLight {
     cell_arc: vec4f,
 }
 
-// A piece of a disc or a ball under one caster.
+// A piece of a disc or a sphere under one caster.
 struct Anchor {
     // Where silhouettes are seen from: a point of the light in light space, or a direction to it.
     place: vec3f,
     pad_a: f32,
-    // Projected to the face of a ball its x.
+    // Projected to the face of a sphere its x.
     axis: vec3f,
     pad_b: f32,
 }
 
-const BALL: u32 = 0u;
+const SPHERE: u32 = 0u;
 const DISC: u32 = 1u;
 const SQUARE: u32 = 2u;
 const LINE: u32 = 3u;
@@ -53,33 +53,28 @@ const PICTURE: u32 = 4u;
 // How wide a line is taken to be.
 const LINE_WIDTH: f32 = 1e-3;
 
-fn to_light(light: WedgeLight, p: vec3f) -> vec3f {
+fn to_light(light: AreaLight, p: vec3f) -> vec3f {
     let d = p - light.center;
     return vec3f(dot(light.to_light[0].xyz, d), dot(light.to_light[1].xyz, d), dot(light.to_light[2].xyz, d));
 }
 
 // Of a direction.
-fn from_light(light: WedgeLight, d: vec3f) -> vec3f {
+fn from_light(light: AreaLight, d: vec3f) -> vec3f {
     return vec3f(dot(light.from_light[0].xyz, d), dot(light.from_light[1].xyz, d), dot(light.from_light[2].xyz, d));
 }
 
 // The middle of the picture's pixel that a place in the buffer of shares stands for.
-fn full_pixel(light: WedgeLight, at: vec2f) -> vec2f {
+fn full_pixel(light: AreaLight, at: vec2f) -> vec2f {
     let scale = f32(light.scale);
     return floor(at) * scale + floor(0.5 * scale) + 0.5;
 }
 
-// Where silhouettes are seen from if the light is not split.
-fn middle(light: WedgeLight) -> vec3f {
-    return vec3f(0.0, 0.0, f32(light.parallel));
-}
-
 // The way from a point to a place of the light, or the direction to it.
-fn way_to(light: WedgeLight, place: vec3f, p: vec3f) -> vec3f {
+fn way_to(light: AreaLight, place: vec3f, p: vec3f) -> vec3f {
     return select(place - p, place, light.parallel != 0u);
 }
 
 // The way from a point to the light.
-fn way_to_light(light: WedgeLight, p: vec3f) -> vec3f {
+fn way_to_light(light: AreaLight, p: vec3f) -> vec3f {
     return select(-p, vec3f(0.0, 0.0, 1.0), light.parallel != 0u);
 }

@@ -23,7 +23,7 @@ struct Placed {
     pad: u32,
 }
 
-@group(1) @binding(0) var<uniform> light: WedgeLight;
+@group(1) @binding(0) var<uniform> light: AreaLight;
 @group(1) @binding(1) var<uniform> eye: Eye;
 @group(1) @binding(2) var<storage, read> nodes: array<TreeNode>;
 // Three vertices each.
@@ -43,7 +43,7 @@ struct Rows {
     w: vec3f,
 }
 
-override FACE: u32 = BALL;
+override FACE: u32 = SPHERE;
 // 32 samples each, and four words each.
 override WORDS: u32 = 2u;
 override FOURS: u32 = 1u;
@@ -68,7 +68,7 @@ fn rows_at(p: vec3f) -> Rows {
     if light.parallel != 0u {
         return Rows(x, y, z);
     }
-    if FACE == BALL {
+    if FACE == SPHERE {
         let far = length(p);
         let way = -p / far;
         let xy = across(way);
@@ -233,7 +233,7 @@ fn strike_horizon(p: vec3f, rows: Rows, normal: vec3f) {
     let height = dot(n, way_to_light(light, p));
     var x = n.x;
     var y = n.y;
-    if FACE == BALL {
+    if FACE == SPHERE {
         x = dot(n, rows.x);
         y = dot(n, rows.y);
     } else if FACE == LINE {

@@ -8,7 +8,7 @@ use std::time::Duration;
 use umbrage_core::glam::{Vec3, Vec3A};
 
 shader_struct! {
-    /// A node, see `mask.wgsl`.
+    /// A node, see `light_mask.wgsl`.
     pub(crate) struct TreeNode {
         low: [f32; 3],
         next: u32,
