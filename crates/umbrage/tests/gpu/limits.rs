@@ -4,7 +4,8 @@ use crate::common::{gpu, pairs, scene};
 use crate::wedges::difference;
 use std::sync::{Arc, Mutex};
 use umbrage::core::{Image, Scene};
-use umbrage::{Error, Gpu, LightPass, Renderer, find, techniques};
+use umbrage::{Error, Gpu, find, techniques};
+use umbrage_renderer::{LightPass, Renderer};
 
 const SIZE: (u32, u32) = (96, 72);
 
