@@ -23,7 +23,7 @@ use shading::Shading;
 use std::time::{Duration, Instant};
 use tonemap::ToneMap;
 use umbrage::{
-    Casters, DebugView, Error, Gpu, PassTime, Passes, Receivers, Recorder, Shader, Stats, Technique, View,
+    Casters, DebugView, Error, Gpu, Owner, PassTime, Passes, Receivers, Recorder, Shader, Stats, Technique, View,
     VisibilityTarget, read,
 };
 use umbrage_core::{Camera, CameraView, Image, Light, LightShape, Scene, Texture};
@@ -49,6 +49,8 @@ pub struct Renderer {
     tonemap: ToneMap,
     recorder: Recorder,
     lights: Vec<Lit>,
+    /// All lights as the scene has them.
+    scene_lights: Vec<Light>,
     /// Kept only where a light is textured.
     textures: Vec<Texture>,
     ambient: [f32; 3],
@@ -99,14 +101,11 @@ impl Renderer {
         let textured = scene.lights.iter().any(|l| matches!(l.shape, LightShape::Rect { texture: Some(_), .. }));
         for (i, pass) in lights.iter().enumerate() {
             if lights[..i].iter().any(|other| other.light == pass.light) {
-                return Err(Error::Scene(format!("light {} comes in two passes; it would shine twice", pass.light)));
+                return Err(twice(pass.light));
             }
         }
         let lights = lights.into_iter().map(|pass| {
-            let light = scene.lights.get(pass.light).cloned().ok_or_else(|| {
-                let count = scene.lights.len();
-                Error::Scene(format!("no light {} in the scene; it has {count}, counted from 0", pass.light))
-            })?;
+            let light = light_of(&scene.lights, pass.light)?;
             let visibility = VisibilityTarget::new(gpu, width, height)?;
             let slot = shading.slot(gpu, &visibility);
             Ok(Lit { number: pass.light, light, technique: pass.technique, visibility, slot })
@@ -120,11 +119,34 @@ impl Renderer {
             shading,
             tonemap,
             recorder: Recorder::new(gpu),
+            scene_lights: scene.lights.clone(),
             textures: if textured { scene.textures.clone() } else { Vec::new() },
             ambient: scene.ambient.to_array(),
             prepare_ms: 0.0,
             overlay: None,
         })
+    }
+
+    /// Puts `new` in the place of pass number `pass` and gives back what was there. Geometry, targets and pipelines stay;
+    /// the light is as the scene has it.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where there is no such pass or light, and for a light of another pass.
+    pub fn exchange(&mut self, pass: usize, new: LightPass) -> Result<LightPass, Error> {
+        if self.lights.iter().enumerate().any(|(i, other)| i != pass && other.number == new.light) {
+            return Err(twice(new.light));
+        }
+        let light = light_of(&self.scene_lights, new.light)?;
+        let lit = self.lights.get_mut(pass).ok_or_else(|| no_pass(pass))?;
+        lit.light = light;
+        let number = std::mem::replace(&mut lit.number, new.light);
+        Ok(LightPass { light: number, technique: std::mem::replace(&mut lit.technique, new.technique) })
+    }
+
+    /// Records with `new` from the next frame on and gives back what was in use. Upload memory goes with it, and the GPU times that a
+    /// technique sees of its last frame: where techniques take turns, each has a recorder of its own.
+    pub fn exchange_recorder(&mut self, new: Recorder) -> Recorder {
+        std::mem::replace(&mut self.recorder, new)
     }
 
     /// Draws and submits one frame without waiting for it.
@@ -137,34 +159,35 @@ impl Renderer {
         let camera = camera.view(width, height);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let mut passes = self.recorder.begin(&mut encoder);
-        passes.owner("poses");
+        passes.owner(Owner::Host("poses"));
         self.casters.record_poses(&mut passes);
-        passes.owner("gbuffer");
+        passes.owner(Owner::Host("gbuffer"));
         self.gbuffer.record(&self.gpu, &mut passes, &self.casters, &camera, self.ambient);
         let scene = Visible { camera, receivers: &self.receivers, casters: &self.casters, textures: &self.textures };
-        let start = Instant::now();
-        let mut shading_time = Duration::ZERO;
-        let mut shade = |passes: &mut Passes<'_>, lit: &Lit| {
-            let start = Instant::now();
-            passes.owner("shading");
+        let shade = |passes: &mut Passes<'_>, lit: &Lit| {
+            passes.owner(Owner::Host("shading"));
             self.shading.record(passes, &self.gbuffer, &scene.view(&lit.light), &lit.slot);
-            shading_time += start.elapsed();
         };
+        let mut preparing = Duration::ZERO;
         if let Some(overlay) = &self.overlay {
+            let start = Instant::now();
             overlay.find(&self.gpu, &mut passes, &scene, &mut self.lights)?;
+            preparing += start.elapsed();
             self.lights.iter().for_each(|lit| shade(&mut passes, lit));
             overlay.record(&mut passes, &self.gbuffer);
         } else {
             for lit in &mut self.lights {
-                passes.owner(format!("light {}", lit.number));
+                passes.owner(Owner::Light(lit.number));
                 let view = scene.view(&lit.light);
+                let start = Instant::now();
                 lit.technique.prepare(&self.gpu, &view)?;
+                preparing += start.elapsed();
                 lit.technique.record(&mut passes, &view, &lit.visibility)?;
                 shade(&mut passes, lit);
             }
         }
-        self.prepare_ms = start.elapsed().saturating_sub(shading_time).as_secs_f64() * 1e3;
-        passes.owner("shading");
+        self.prepare_ms = preparing.as_secs_f64() * 1e3;
+        passes.owner(Owner::Host("shading"));
         self.tonemap.record(&mut passes);
         passes.finish();
         self.gpu.queue.submit([encoder.finish()]);
@@ -202,7 +225,8 @@ impl Renderer {
         self.recorder.times()
     }
 
-    /// CPU time of all techniques in the last frame, preparing and recording, milliseconds.
+    /// CPU time that [`Technique::prepare`] took in the last frame, all lights together, milliseconds. Recording does not count, but in
+    /// an overlay, which is prepared and recorded in one.
     pub fn prepare_ms(&self) -> f64 {
         self.prepare_ms
     }
@@ -250,7 +274,7 @@ impl Renderer {
     /// # Errors
     /// [`Error::Scene`] where there is no such pass.
     pub fn visibility(&self, pass: usize) -> Result<Image<f32>, Error> {
-        let lit = self.lights.get(pass).ok_or_else(|| Error::Scene(format!("there is no light pass {pass}")))?;
+        let lit = self.lights.get(pass).ok_or_else(|| no_pass(pass))?;
         lit.visibility.read(&self.gpu)
     }
 
@@ -294,4 +318,18 @@ impl Renderer {
     pub fn read_debug_view(&self, view: &DebugView<'_>) -> Result<Image<f32>, Error> {
         read::one_channel(&self.gpu, view.texture, view.layer)
     }
+}
+
+fn light_of(lights: &[Light], number: usize) -> Result<Light, Error> {
+    let count = lights.len();
+    let none = || Error::Scene(format!("no light {number} in the scene; it has {count}, counted from 0"));
+    lights.get(number).cloned().ok_or_else(none)
+}
+
+fn twice(light: usize) -> Error {
+    Error::Scene(format!("light {light} comes in two passes; it would shine twice"))
+}
+
+fn no_pass(pass: usize) -> Error {
+    Error::Scene(format!("there is no light pass {pass}"))
 }

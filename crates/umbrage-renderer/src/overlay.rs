@@ -3,7 +3,7 @@
 
 use crate::{Lit, Visible, gbuffer::GBuffer};
 use umbrage::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, attachment, bind, layout};
-use umbrage::{Error, Gpu, Passes, Shader, VisibilityTarget, wgsl};
+use umbrage::{Error, Gpu, Owner, Passes, Shader, VisibilityTarget, wgsl};
 use umbrage_core::Light;
 
 /// The shader.
@@ -66,7 +66,7 @@ impl Overlay {
         let shapes: Vec<Light> = lights.iter().map(|lit| lit.light.clone()).collect();
         let views: Vec<_> = shapes.iter().map(|light| scene.view(light)).collect();
         let Some(first) = lights.first_mut() else { return Ok(()) };
-        passes.owner(format!("light {}", first.number));
+        passes.owner(Owner::Light(first.number));
         first.technique.record_overlay(gpu, passes, &views, &self.visibility)
     }
 

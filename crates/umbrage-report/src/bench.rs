@@ -10,14 +10,14 @@ use crate::{
     motion::{Motion, Moving},
     path::CameraPath,
     progress::Progress,
-    record::{SCHEMA, Status, in_order},
+    record::{SCHEMA, Status, as_text, in_order},
     round::maybe_six,
     source::Source,
     spread::Spread,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
-use umbrage::{Gpu, Technique, baseline};
+use umbrage::{Gpu, Owner, Technique, baseline};
 use umbrage_core::{Camera, LightKind};
 use umbrage_reference::Tracer;
 use umbrage_renderer::{LightPass, Renderer};
@@ -138,7 +138,7 @@ pub struct BenchCost {
     pub passes: Vec<BenchPass>,
     /// GPU time of the technique's own passes together; null where the adapter keeps no time.
     pub gpu_ms: Option<Spread>,
-    /// Time that the CPU prepares the frame.
+    /// CPU time of the technique's `prepare`; an overlay's includes recording.
     pub prepare_ms: Spread,
     /// The whole frame from start to finished picture.
     pub frame_ms: Spread,
@@ -157,7 +157,8 @@ pub struct BenchCost {
 #[derive(Clone, Debug, Serialize)]
 pub struct BenchPass {
     /// Whose it is: `light N` for the technique's, others are the renderer's.
-    pub owner: String,
+    #[serde(serialize_with = "as_text")]
+    pub owner: Owner,
     /// Its name.
     pub pass: String,
     /// Milliseconds.

@@ -135,7 +135,7 @@ fn table(results: &[BenchResult], on_path: bool) -> Table {
                 let ms = |v: f64| format!("{v:.2}");
                 let maybe = |v: Option<f64>| v.map_or("–".into(), ms);
                 // The floor shows what the renderer itself takes: its G-buffer and shading.
-                let is_shown = |p: &&BenchPass| is_of_technique(&p.owner) || result.technique == "floor";
+                let is_shown = |p: &&BenchPass| is_of_technique(p.owner) || result.technique == "floor";
                 let passes = cost.passes.iter().filter(is_shown).map(|p| format!("{} {:.2}", p.pass, p.time_ms.median));
                 let cells = [
                     ms(cost.frame_ms.median),
@@ -171,11 +171,12 @@ mod tests {
         record::{SCHEMA, fixture},
     };
     use std::collections::BTreeMap;
+    use umbrage::Owner;
 
     fn report() -> BenchReport {
         let spread = Spread { median: 2.0, min: 1.0, max: 1.0 / 3.0 };
         let cost = BenchCost {
-            passes: vec![BenchPass { owner: "light 0".into(), pass: "map".into(), time_ms: spread }],
+            passes: vec![BenchPass { owner: Owner::Light(0), pass: "map".into(), time_ms: spread }],
             gpu_ms: Some(spread),
             prepare_ms: spread,
             frame_ms: spread,

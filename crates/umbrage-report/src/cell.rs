@@ -154,7 +154,7 @@ impl Cell<'_> {
 
 fn cost(frames: &Frames, renderer: &Renderer) -> CostRecord {
     let stats = renderer.stats(0);
-    let passes = frames.passes().into_iter().filter(|(owner, ..)| is_of_technique(owner));
+    let passes = frames.passes().into_iter().filter(|(owner, ..)| is_of_technique(*owner));
     CostRecord {
         frames: frames.count(),
         passes: passes.map(|(_, pass, spread)| PassRecord { pass, time_ms: spread.median }).collect(),

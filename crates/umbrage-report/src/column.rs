@@ -93,7 +93,7 @@ pub const COLUMNS: [Column; 20] = [
     texels("texel 95 %", "p95", "95 of 100 scored pixels have no larger texel, pixels."),
     texels("texel 99 %", "p99", "99 of 100 scored pixels have no larger texel, pixels."),
     cost("gpu ms", "gpu_ms", 1.0, 2, true, "GPU time of all passes of the technique, median."),
-    cost("prepare ms", "prepare_ms", 1.0, 2, false, "CPU time to prepare and record the frame, median."),
+    cost("prepare ms", "prepare_ms", 1.0, 2, false, "CPU time of the technique's preparation of a frame, median."),
     cost(
         "frame ms",
         "frame_ms",

@@ -2,7 +2,7 @@
 
 use crate::spread::Spread;
 use std::time::{Duration, Instant};
-use umbrage::{Error, PassTime};
+use umbrage::{Error, Owner, PassTime};
 use umbrage_core::Camera;
 use umbrage_renderer::Renderer;
 
@@ -56,39 +56,39 @@ impl Frames {
         Spread::of(self.frame_ms.iter().copied())
     }
 
-    /// The CPU's part before recording, milliseconds.
+    /// The CPU time of [`umbrage::Technique::prepare`], milliseconds.
     pub(crate) fn prepare(&self) -> Spread {
         Spread::of(self.prepare_ms.iter().copied())
     }
 
     /// GPU time of each pass, in the order in which they were recorded. Passes of one name in a frame are added up; one that a
     /// frame left out took no time.
-    pub(crate) fn passes(&self) -> Vec<(String, String, Spread)> {
-        let mut names: Vec<(&str, &str)> = Vec::new();
+    pub(crate) fn passes(&self) -> Vec<(Owner, String, Spread)> {
+        let mut names: Vec<(Owner, &str)> = Vec::new();
         for time in self.passes.iter().flatten() {
-            if !names.contains(&(&time.owner, &time.pass)) {
-                names.push((&time.owner, &time.pass));
+            if !names.contains(&(time.owner, &time.pass)) {
+                names.push((time.owner, &time.pass));
             }
         }
-        let of = |(owner, pass): (&str, &str)| {
+        let of = |(owner, pass): (Owner, &str)| {
             let is_it = |t: &&PassTime| t.owner == owner && t.pass == pass;
             let times = self.passes.iter().map(|frame| frame.iter().filter(is_it).map(|t| t.time_ms).sum());
-            (owner.to_string(), pass.to_string(), Spread::of(times))
+            (owner, pass.to_string(), Spread::of(times))
         };
         names.into_iter().map(of).collect()
     }
 
     /// GPU time of the technique's passes together; `None` where the adapter keeps no time.
     pub(crate) fn technique(&self) -> Option<Spread> {
-        let sum = |frame: &Vec<PassTime>| frame.iter().filter(|t| is_of_technique(&t.owner)).map(|t| t.time_ms).sum();
+        let sum = |frame: &Vec<PassTime>| frame.iter().filter(|t| is_of_technique(t.owner)).map(|t| t.time_ms).sum();
         let timed = self.passes.iter().any(|frame| !frame.is_empty());
         timed.then(|| Spread::of(self.passes.iter().map(sum)))
     }
 }
 
-/// The renderer calls the passes of a light's technique `light N`; others are its own.
-pub(crate) fn is_of_technique(owner: &str) -> bool {
-    owner.starts_with("light ")
+/// Passes of a light are its technique's; others are the renderer's own.
+pub(crate) fn is_of_technique(owner: Owner) -> bool {
+    matches!(owner, Owner::Light(_))
 }
 
 #[cfg(test)]
@@ -97,13 +97,13 @@ mod tests {
 
     #[test]
     fn passes_of_one_name_are_added_up_and_missing_ones_take_no_time() {
-        let pass = |owner: &str, pass: &str, time_ms| PassTime { owner: owner.into(), pass: pass.into(), time_ms };
+        let pass = |light, pass: &str, time_ms| PassTime { owner: Owner::Light(light), pass: pass.into(), time_ms };
         let passes = vec![
-            vec![pass("light 0", "blur", 1.0), pass("light 0", "blur", 2.0), pass("light 1", "blur", 8.0)],
-            vec![pass("light 0", "blur", 4.0), pass("light 0", "blur", 3.0)],
+            vec![pass(0, "blur", 1.0), pass(0, "blur", 2.0), pass(1, "blur", 8.0)],
+            vec![pass(0, "blur", 4.0), pass(0, "blur", 3.0)],
         ];
         let found = Frames { passes, ..Frames::default() }.passes();
-        let medians: Vec<_> = found.iter().map(|(owner, pass, time)| (&**owner, &**pass, time.median)).collect();
-        assert_eq!(medians, [("light 0", "blur", 5.0), ("light 1", "blur", 4.0)]);
+        let medians: Vec<_> = found.iter().map(|(owner, pass, time)| (*owner, &**pass, time.median)).collect();
+        assert_eq!(medians, [(Owner::Light(0), "blur", 5.0), (Owner::Light(1), "blur", 4.0)]);
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::{made::Made, round::maybe_six, round::six};
 use serde::{Serialize, Serializer};
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, fmt::Display};
 use umbrage_metrics::{Aliasing, Scores};
 
 /// Version of the data in `report.json` and of what `bench` prints.
@@ -203,7 +203,7 @@ pub struct CostRecord {
     /// GPU time of all its passes; null where the adapter keeps no time.
     #[serde(serialize_with = "maybe_six")]
     pub gpu_ms: Option<f64>,
-    /// Time that the CPU prepares and records the frame.
+    /// CPU time of the technique's `prepare`.
     #[serde(serialize_with = "six")]
     pub prepare_ms: f64,
     /// The whole frame from start to finished picture: G-buffer, shadow, shading.
@@ -223,6 +223,11 @@ pub struct CostRecord {
 /// Writes counts as an object with the names in the order given.
 pub(crate) fn in_order<S: Serializer>(counts: &[(&str, u64)], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(counts.iter().copied())
+}
+
+/// Writes what a value prints as.
+pub(crate) fn as_text<S: Serializer>(value: &impl Display, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(value)
 }
 
 /// GPU time of a pass.

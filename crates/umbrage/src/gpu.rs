@@ -141,6 +141,23 @@ impl Gpu {
         polled.map(|_| ()).map_err(|e| Error::Driver(e.to_string()))
     }
 
+    /// Does `work` and takes what the driver reports meanwhile as its error, where [`Gpu::check`] would hold it against all that
+    /// comes later. A lost device stays lost.
+    ///
+    /// # Errors
+    /// That of `work`, or else [`Error::Driver`].
+    pub fn catch<T, E: From<Error>>(&self, work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
+        use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
+        let scopes = [Validation, OutOfMemory, Internal].map(|filter| self.device.push_error_scope(filter));
+        let done = work();
+        // The last one pushed is the first to go.
+        let reported = scopes.into_iter().rev().filter_map(|scope| block_on(scope.pop())).last();
+        match (done, reported) {
+            (Ok(_), Some(error)) => Err(Error::Driver(error.to_string()).into()),
+            (done, _) => done,
+        }
+    }
+
     /// A two-dimensional texture size checked against the adapter's limit.
     ///
     /// # Errors

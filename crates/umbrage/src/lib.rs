@@ -58,7 +58,7 @@ pub use error::{Error, nearest};
 pub use gpu::{AdapterSummary, Gpu};
 pub use light_samples::light_samples;
 pub use params::{Param, ParamKind, Settings, Value};
-pub use passes::{PassTime, Passes, Recorder};
+pub use passes::{Owner, PassTime, Passes, Recorder};
 pub use receivers::Receivers;
 pub use shader::{HostLayout, Shader};
 pub use technique::{DebugView, Make, Stats, Technique, TechniqueInfo};

@@ -5,18 +5,39 @@
 //! the encoder, from a staging belt that keeps its memory.
 
 use crate::gpu::Gpu;
-use std::sync::{Arc, Mutex, mpsc};
+use std::{
+    fmt,
+    sync::{Arc, Mutex, mpsc},
+};
 use wgpu::util::StagingBelt;
 
 /// Passes that one frame can time (4096 queries are the most that WebGPU allows in a set). A frame with more has no
 /// times at all, rather than the sum of a part.
 const MAX_TIMED: u32 = 2048;
 
+/// Whose a pass is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Owner {
+    /// A part of the host, by its name: `gbuffer`, `shading`.
+    Host(&'static str),
+    /// The technique of the light of this number.
+    Light(usize),
+}
+
+impl fmt::Display for Owner {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Host(name) => f.write_str(name),
+            Self::Light(number) => write!(f, "light {number}"),
+        }
+    }
+}
+
 /// GPU time of one pass, or the sum over passes of the same name in a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassTime {
-    /// Who recorded it: `gbuffer`, `light 0`, `shading`, or what the host chose.
-    pub owner: String,
+    /// Who recorded it.
+    pub owner: Owner,
     /// The pass.
     pub pass: String,
     /// Milliseconds between its start and its end on the GPU.
@@ -41,7 +62,7 @@ impl Recorder {
         if let Some(timer) = &mut self.timer {
             timer.names.clear();
         }
-        Passes { encoder, belt: &mut self.belt, timer: self.timer.as_mut(), owner: String::new() }
+        Passes { encoder, belt: &mut self.belt, timer: self.timer.as_mut(), owner: Owner::Host("") }
     }
 
     /// GPU times of the newest frame whose results have arrived; empty without timestamps. Never waits: poll the
@@ -56,7 +77,7 @@ pub struct Passes<'a> {
     encoder: &'a mut wgpu::CommandEncoder,
     belt: &'a mut StagingBelt,
     timer: Option<&'a mut Timer>,
-    owner: String,
+    owner: Owner,
 }
 
 impl Passes<'_> {
@@ -72,8 +93,8 @@ impl Passes<'_> {
     }
 
     /// Names whom the following passes belong to in [`PassTime::owner`].
-    pub fn owner(&mut self, owner: impl Into<String>) {
-        self.owner = owner.into();
+    pub fn owner(&mut self, owner: Owner) {
+        self.owner = owner;
     }
 
     /// Replaces the start of `buffer` by `data` for everything recorded after this.
@@ -91,7 +112,7 @@ impl Passes<'_> {
         color: &[Option<wgpu::RenderPassColorAttachment<'_>>],
         depth_stencil: Option<wgpu::RenderPassDepthStencilAttachment<'_>>,
     ) -> wgpu::RenderPass<'_> {
-        let slot = self.timer.as_mut().and_then(|t| t.slot(&self.owner, label));
+        let slot = self.timer.as_mut().and_then(|t| t.slot(self.owner, label));
         let timestamp_writes = slot.zip(self.timer.as_ref()).map(|(i, t)| wgpu::RenderPassTimestampWrites {
             query_set: &t.queries,
             beginning_of_pass_write_index: Some(2 * i),
@@ -108,7 +129,7 @@ impl Passes<'_> {
 
     /// A compute pass, timed under its label.
     pub fn compute(&mut self, label: &str) -> wgpu::ComputePass<'_> {
-        let slot = self.timer.as_mut().and_then(|t| t.slot(&self.owner, label));
+        let slot = self.timer.as_mut().and_then(|t| t.slot(self.owner, label));
         let timestamp_writes = slot.zip(self.timer.as_ref()).map(|(i, t)| wgpu::ComputePassTimestampWrites {
             query_set: &t.queries,
             beginning_of_pass_write_index: Some(2 * i),
@@ -131,7 +152,7 @@ struct Timer {
     queries: wgpu::QuerySet,
     resolved: wgpu::Buffer,
     period_ns: f64,
-    names: Vec<(String, String)>,
+    names: Vec<(Owner, String)>,
     spare: Vec<wgpu::Buffer>,
     arrived: mpsc::Receiver<Frame>,
     sender: Arc<Mutex<mpsc::Sender<Frame>>>,
@@ -141,7 +162,7 @@ struct Timer {
 /// A frame's timestamps on the way back: the mapped buffer and what its pairs are.
 struct Frame {
     buffer: wgpu::Buffer,
-    names: Vec<(String, String)>,
+    names: Vec<(Owner, String)>,
 }
 
 /// Read-backs under way at most; a frame beyond them goes untimed rather than waiting.
@@ -177,9 +198,9 @@ impl Timer {
         }
     }
 
-    fn slot(&mut self, owner: &str, pass: &str) -> Option<u32> {
+    fn slot(&mut self, owner: Owner, pass: &str) -> Option<u32> {
         let i = self.names.len() as u32;
-        self.names.push((owner.to_string(), pass.to_string()));
+        self.names.push((owner, pass.to_string()));
         (i < MAX_TIMED).then_some(i)
     }
 
@@ -222,7 +243,7 @@ impl Timer {
 }
 
 /// Start and end of each pass, in ticks, to milliseconds by name.
-fn sum_by_name(names: Vec<(String, String)>, ticks: &[u64], period_ns: f64) -> Vec<PassTime> {
+fn sum_by_name(names: Vec<(Owner, String)>, ticks: &[u64], period_ns: f64) -> Vec<PassTime> {
     let mut times: Vec<PassTime> = Vec::new();
     for ((owner, pass), pair) in names.into_iter().zip(ticks.as_chunks::<2>().0) {
         let time_ms = pair[1].saturating_sub(pair[0]) as f64 * period_ns * 1e-6;
@@ -240,7 +261,7 @@ mod tests {
 
     #[test]
     fn passes_of_one_name_add_up() {
-        let name = |p: &str| ("light 0".to_string(), p.to_string());
+        let name = |p: &str| (Owner::Light(0), p.to_string());
         let times = sum_by_name(vec![name("map"), name("map"), name("test")], &[0, 1000, 2000, 4000, 10, 5], 1000.0);
         assert_eq!(times.len(), 2);
         assert!((times[0].time_ms - 3.0).abs() < 1e-9);

@@ -63,7 +63,7 @@ function allSettings(light) {
   const columns = [
     ["ms over floor", "Cost over that of the floor.", (r) => r.over_floor_ms],
     ["gpu ms", "GPU time of all passes of the technique, median.", (r) => r.cost?.gpu_ms?.median],
-    ["prepare ms", "CPU time to prepare and record the frame, median.", (r) => r.cost?.prepare_ms.median],
+    ["prepare ms", "CPU time of the technique's preparation of a frame, median.", (r) => r.cost?.prepare_ms.median],
     ["frame ms", "Whole frame from start to finished picture, median.", (r) => r.cost?.frame_ms.median],
     ["MiB", "GPU memory that the technique holds, in mebibytes.", (r) => (r.cost ? r.cost.bytes / 1048576 : null)],
     ...MEASURES.map((m) => [m.name, m.help, (r) => r.errors[m.name]]),
