@@ -1,15 +1,11 @@
 //! Depth, normals and materials of the visible surfaces; ambient and emitted light at once.
 
 use umbrage::fullscreen::{UNIFORM, attachment, bind, layout, target_texture};
-use umbrage::{Casters, Gpu, Passes, SeenCasters, Shader, shader_struct, wgsl};
+use umbrage::{Casters, Gpu, Passes, SeenCasters, Shader, shader_struct};
 use umbrage_core::{CameraView, glam::DMat4};
 
 /// The shader.
-pub const SHADER: Shader = Shader {
-    name: "G-buffer",
-    parts: &[SeenCasters::WGSL, wgsl::PACK_NORMAL, include_str!("gbuffer.wgsl")],
-    layouts: &[GBufferView::LAYOUT],
-};
+pub const SHADER: Shader = Shader::new("G-buffer", include_str!("gbuffer.wgsl")).with_layouts(&[GBufferView::LAYOUT]);
 
 shader_struct! {
     /// The camera as the vertex shader needs it.

@@ -1,3 +1,4 @@
+// needs: casters, materials, pack_normal
 // Depth, normals and materials of the visible surfaces.
 
 struct GBufferView {

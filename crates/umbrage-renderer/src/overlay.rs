@@ -3,12 +3,11 @@
 
 use crate::{Lit, Visible, gbuffer::GBuffer};
 use umbrage::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, attachment, bind, layout};
-use umbrage::{Error, Gpu, Owner, Passes, Shader, VisibilityTarget, wgsl};
+use umbrage::{Error, Gpu, Owner, Passes, Shader, VisibilityTarget};
 use umbrage_core::Light;
 
 /// The shader.
-pub const SHADER: Shader =
-    Shader { name: "overlay", parts: &[wgsl::FULLSCREEN, include_str!("overlay.wgsl")], layouts: &[] };
+pub const SHADER: Shader = Shader::new("overlay", include_str!("overlay.wgsl"));
 
 pub(super) struct Overlay {
     /// 0 where a point is in any shadow.

@@ -1,3 +1,4 @@
+// needs: fullscreen
 // A dark overlay over all that any light's shadow falls on (PX 3.4): blended over the radiance.
 
 @group(0) @binding(0) var visibility_texture: texture_2d<f32>;

@@ -2,15 +2,11 @@
 
 use crate::gbuffer::GBuffer;
 use umbrage::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout};
-use umbrage::{Eye, Gpu, Passes, Receivers, Shader, View, VisibilityTarget, shader_struct, wgsl};
+use umbrage::{Eye, Gpu, Passes, Receivers, Shader, View, VisibilityTarget, shader_struct};
 use umbrage_core::{LightShape, glam::DVec3};
 
 /// The shader.
-pub const SHADER: Shader = Shader {
-    name: "shading",
-    parts: &[wgsl::FULLSCREEN, wgsl::RECEIVERS, include_str!("shading.wgsl")],
-    layouts: &[ShadingLight::LAYOUT],
-};
+pub const SHADER: Shader = Shader::new("shading", include_str!("shading.wgsl")).with_layouts(&[ShadingLight::LAYOUT]);
 
 shader_struct! {
     /// A light as the shader reads it, relative to the eye.

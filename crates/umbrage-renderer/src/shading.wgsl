@@ -1,3 +1,4 @@
+// needs: fullscreen, receivers
 // The standard lighting model (PX 2.2.4) for one light.
 
 struct ShadingLight {

@@ -2,11 +2,10 @@
 
 use crate::gbuffer::GBuffer;
 use umbrage::fullscreen::{self, FLOATS, Fullscreen, attachment, bind, layout, target_texture};
-use umbrage::{Gpu, Passes, Shader, wgsl};
+use umbrage::{Gpu, Passes, Shader};
 
 /// The shader.
-pub const SHADER: Shader =
-    Shader { name: "tone mapping", parts: &[wgsl::FULLSCREEN, include_str!("tonemap.wgsl")], layouts: &[] };
+pub const SHADER: Shader = Shader::new("tone mapping", include_str!("tonemap.wgsl"));
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 

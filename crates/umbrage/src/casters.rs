@@ -5,7 +5,7 @@
 //! numbers as its per-instance vertex buffer: culling writes that list and nothing else.
 
 use crate::fullscreen::{STORAGE, bind, layout};
-use crate::{error::Error, gpu::Gpu, passes::Passes, shader::shader_struct};
+use crate::{error::Error, gpu::Gpu, passes::Passes, shader::Shared, shader::shader_struct};
 use poses::Poses;
 use std::{ops::Range, sync::OnceLock};
 use umbrage_core::glam::{DAffine3, DVec3, DVec4, Vec4};
@@ -22,9 +22,9 @@ mod seen;
 mod sides;
 mod vertices;
 pub(crate) use draw_list::{DrawList, InstanceNumbers, Light, Surface};
-pub(crate) use edges::{EDGES_WGSL, Edge, Edges, MeshEdges};
+pub(crate) use edges::{Edges, MeshEdges};
 pub(crate) use eye_tree::{before_eye, largest_stretch};
-pub(crate) use material::{MATERIAL_LAYOUT, MATERIALS_WGSL, texture_layout};
+pub(crate) use material::texture_layout;
 pub(crate) use moves::Moves;
 pub(crate) use places::Places;
 pub(crate) use poses::SHADERS;
@@ -33,10 +33,11 @@ pub(crate) use sides::Sides;
 use vertices::Vertices;
 pub(crate) use vertices::{MeshPart, vertex_layouts};
 
-/// Declares `Instance` and how a vertex gets into the world.
-pub(crate) const INSTANCES_WGSL: &str = include_str!("wgsl/instances.wgsl");
-/// The same with the buffers of group 1.
-pub(crate) const CASTERS_WGSL: &str = concat!(include_str!("wgsl/casters.wgsl"), include_str!("wgsl/instances.wgsl"));
+/// What the host has to agree on with `instances.wgsl`.
+const INSTANCES: Shared = Shared { module: "instances", layouts: &[Instance::LAYOUT], constants: &[] };
+
+/// What the host has to agree on with the modules of this folder.
+pub(crate) const SHARED: &[Shared] = &[INSTANCES, material::SHARED, edges::SHARED, poses::SHARED];
 
 shader_struct! {
     /// A placed mesh; the rows of an affine matrix from mesh space to world space about [`Casters::origin`].

@@ -53,14 +53,14 @@ mod view;
 mod visibility;
 
 pub use casters::{Casters, SeenCasters};
-pub use depth_maps::Eye;
+
 pub use error::{Error, nearest};
 pub use gpu::{AdapterSummary, Gpu};
 pub use light_samples::light_samples;
 pub use params::{Param, ParamKind, Settings, Value};
 pub use passes::{Owner, PassTime, Passes, Recorder};
-pub use receivers::Receivers;
-pub use shader::{HostLayout, Shader};
+pub use receivers::{Eye, Receivers};
+pub use shader::{HostConstant, HostLayout, Module, Shader, Shared, Unresolved};
 pub use technique::{DebugView, Make, Stats, Technique, TechniqueInfo};
 pub use techniques::{RENAMED, Renamed, find, techniques};
 
@@ -70,11 +70,17 @@ pub use visibility::VisibilityTarget;
 
 /// WGSL that passes of a host may share with the library.
 pub mod wgsl {
-    pub use crate::shader::{FULLSCREEN, PACK_NORMAL, RECEIVERS};
+    pub use crate::shader::PACK_NORMAL;
 }
 
 /// Every shader of the library: those of the techniques, the adaptor, poses and the baselines.
 pub fn shaders() -> Vec<Shader> {
     let own = techniques().iter().flat_map(|t| t.shaders);
     own.chain([&light_samples::SHADER]).chain(casters::SHADERS).chain(baseline::SHADERS).copied().collect()
+}
+
+/// What the host has to agree on with the library's modules of WGSL, whatever shader needs them.
+pub fn shared() -> Vec<Shared> {
+    let one = [receivers::SHARED, area_light::SHARED, moment_maps::SHARED];
+    [casters::SHARED, silhouettes::SHARED, depth_maps::SHARED, &one].concat()
 }

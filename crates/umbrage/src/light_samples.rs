@@ -7,7 +7,7 @@ use crate::{
     gpu::Gpu,
     params::Settings,
     passes::Passes,
-    shader::{FULLSCREEN, Shader},
+    shader::Shader,
     technique::{DebugView, Stats, Technique, TechniqueInfo},
     view::View,
     visibility::VisibilityTarget,
@@ -15,8 +15,7 @@ use crate::{
 use umbrage_core::{Light, light_view::LightView, sampling::hard_lights};
 
 /// Shader of the adaptor, for the registry's tests.
-pub const SHADER: Shader =
-    Shader { name: "light samples", parts: &[FULLSCREEN, include_str!("wgsl/light_samples.wgsl")], layouts: &[] };
+pub const SHADER: Shader = Shader::new("light samples", include_str!("wgsl/light_samples.wgsl"));
 
 /// Wraps the technique `info` describes, so that its visibility is the mean over `samples` points of the light.
 ///

@@ -5,7 +5,7 @@ use umbrage_core::LightShape;
 use umbrage_core::coverage::Cell;
 use umbrage_core::glam::{DMat3, DVec2, DVec3, DVec4};
 
-/// What a light looks like, see `light.wgsl`.
+/// What a light looks like, see `area_light.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Face {
     Sphere = 0,
@@ -21,7 +21,7 @@ pub(crate) struct Form {
     pub face: Face,
     /// A place (w = 1) or a direction (w = 0), in world space.
     pub center: DVec4,
-    /// Takes differences of places to light space, see `light.wgsl`.
+    /// Takes differences of places to light space, see `area_light.wgsl`.
     pub(super) to_light: DMat3,
     /// Its hull there.
     pub(super) corners: [DVec3; 4],

@@ -5,12 +5,14 @@ mod form;
 mod select;
 mod uniform;
 
+use crate::shader::Shared;
 pub(crate) use form::{Face, Form};
 pub(crate) use select::{casters_in_view, is_on_a_caster, may_touch};
 pub(crate) use uniform::{Anchor, AreaLight, Frame, scaled};
 
-/// `light.wgsl`: the light as shaders know it.
-pub(crate) const AREA_LIGHT: &str = include_str!("light.wgsl");
+/// What the host has to agree on with `area_light.wgsl`.
+pub(crate) const SHARED: Shared =
+    Shared { module: "area_light", layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT], constants: &[] };
 
 /// The share of coordinates that a few roundings of single precision come to.
 pub(crate) const ROUNDING: f64 = 1e-6;

@@ -1,4 +1,4 @@
-//! A light's form as shaders read it, see `light.wgsl`.
+//! A light's form as shaders read it, see `area_light.wgsl`.
 
 use super::form::Form;
 use crate::shader::shader_struct;
@@ -7,7 +7,7 @@ use umbrage_core::coverage::Cell;
 use umbrage_core::glam::{DMat3, DMat4, DVec3, DVec4};
 
 shader_struct! {
-    /// See `light.wgsl`.
+    /// See `area_light.wgsl`.
     pub(crate) struct AreaLight {
         clip_from_eye: [[f32; 4]; 4],
         to_light: [[f32; 4]; 3],
@@ -30,7 +30,7 @@ shader_struct! {
 }
 
 shader_struct! {
-    /// See `light.wgsl`.
+    /// See `area_light.wgsl`.
     pub(crate) struct Anchor {
         place: [f32; 3],
         pad_a: f32,

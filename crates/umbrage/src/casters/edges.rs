@@ -2,16 +2,16 @@
 
 use super::{Casters, eye_tree::EyeTree, poses};
 use crate::fullscreen::{STORAGE, bind, layout};
-use crate::{error::Error, gpu::Gpu, shader::shader_struct};
+use crate::{error::Error, gpu::Gpu, shader::Shared, shader::shader_struct};
 use std::sync::{Arc, OnceLock};
 use umbrage_core::adjacency::{Adjacency, NONE, without_copies};
 use umbrage_core::{Mesh, glam::Vec4};
 
-/// Declares `Edge` and what a light makes of one.
-pub(crate) const EDGES_WGSL: &str = include_str!("../wgsl/edges.wgsl");
+/// What the host has to agree on with `edges.wgsl`.
+pub(super) const SHARED: Shared = Shared { module: "edges", layouts: &[Edge::LAYOUT], constants: &[] };
 
 shader_struct! {
-    /// An edge between two vertices and its triangles, see `wgsl/edges.wgsl`.
+    /// An edge between two vertices and its triangles, see `edges.wgsl`.
     pub(crate) struct Edge {
         start: u32,
         end: u32,
@@ -35,7 +35,7 @@ const WITHOUT_EDGES: [u32; 4] = [1, 2, 3, 4];
 
 /// Of all meshes of the scene, made once and shared by every light.
 pub(crate) struct Edges {
-    /// As `wgsl/edges.wgsl` declares it, for compute.
+    /// As `edges.wgsl` declares it, for compute.
     pub find: wgpu::BindGroup,
     /// As `wgsl/extrude.wgsl` declares it, for drawing.
     pub draw: wgpu::BindGroup,

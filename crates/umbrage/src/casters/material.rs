@@ -1,12 +1,9 @@
 //! Materials and textures on the GPU.
 
 use crate::fullscreen::{self, bind, layout};
-use crate::{error::Error, gpu::Gpu, shader::shader_struct};
+use crate::{error::Error, gpu::Gpu, shader::Shared, shader::shader_struct};
 use umbrage_core::{Scene, Texture};
 use wgpu::util::DeviceExt;
-
-/// Declares `Material`, its buffer in group 1 and the texture in group 2.
-pub(crate) const MATERIALS_WGSL: &str = include_str!("../wgsl/materials.wgsl");
 
 shader_struct! {
     /// Appearance of an instance.
@@ -20,8 +17,8 @@ shader_struct! {
     }
 }
 
-/// For shader tests.
-pub(crate) const MATERIAL_LAYOUT: crate::shader::HostLayout = Material::LAYOUT;
+/// What the host has to agree on with `materials.wgsl`.
+pub(super) const SHARED: Shared = Shared { module: "materials", layouts: &[Material::LAYOUT], constants: &[] };
 
 /// All materials of the scene, as the shader reads them.
 pub(super) fn all(scene: &Scene) -> Vec<Material> {

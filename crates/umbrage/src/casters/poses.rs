@@ -3,7 +3,7 @@
 
 use super::{Edges, MeshPart};
 use crate::fullscreen::{STORAGE, bind, layout};
-use crate::{error::Error, gpu::Gpu, passes::Passes, shader::Shader, shader::shader_struct};
+use crate::{error::Error, gpu::Gpu, passes::Passes, shader::Shader, shader::Shared, shader::shader_struct};
 use std::sync::{Arc, OnceLock};
 use umbrage_core::adjacency::Adjacency;
 use umbrage_core::glam::{DAffine3, DVec3, Vec4};
@@ -12,22 +12,15 @@ use umbrage_core::{Bounds, Mesh, Scene};
 
 /// Bends vertices; then makes planes of the triangles between them.
 pub(crate) const SHADERS: &[Shader] = &[
-    Shader {
-        name: "poses",
-        parts: &[POSES_WGSL, include_str!("../wgsl/pose_vertices.wgsl")],
-        layouts: &[PosedMesh::LAYOUT, JointRows::LAYOUT, HeldBy::LAYOUT],
-    },
-    Shader {
-        name: "planes of poses",
-        parts: &[POSES_WGSL, include_str!("../wgsl/pose_planes.wgsl")],
-        layouts: &[PosedMesh::LAYOUT],
-    },
+    Shader::new("poses", include_str!("pose_vertices.wgsl")).with_layouts(&[JointRows::LAYOUT, HeldBy::LAYOUT]),
+    Shader::new("planes of poses", include_str!("pose_planes.wgsl")),
 ];
 
-const POSES_WGSL: &str = include_str!("../wgsl/poses.wgsl");
+/// What the host has to agree on with `poses.wgsl`.
+pub(super) const SHARED: Shared = Shared { module: "poses", layouts: &[PosedMesh::LAYOUT], constants: &[] };
 
 shader_struct! {
-    /// A mesh to bend, see `wgsl/poses.wgsl`.
+    /// A mesh to bend, see `poses.wgsl`.
     pub(crate) struct PosedMesh {
         bound_vertex: u32,
         vertex: u32,

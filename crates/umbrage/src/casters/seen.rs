@@ -8,7 +8,7 @@ use umbrage_core::{CameraView, Frustum};
 ///
 /// A host's pipelines have its own group 0, then [`SeenCasters::layouts`], and [`SeenCasters::vertex_layouts`]. Their
 /// shaders read positions as location 0, instance numbers as 1, normals as 2 and texture coordinates as 3, and use
-/// [`SeenCasters::WGSL`] to get into the world and to materials.
+/// the modules `casters` and `materials` to get into the world and to materials.
 #[derive(Default)]
 pub struct SeenCasters {
     places: Vec<u32>,
@@ -17,13 +17,6 @@ pub struct SeenCasters {
 }
 
 impl SeenCasters {
-    /// Groups 1 and 2: instances, materials and the texture of the base colour.
-    pub const WGSL: &str = concat!(
-        include_str!("../wgsl/casters.wgsl"),
-        include_str!("../wgsl/instances.wgsl"),
-        include_str!("../wgsl/materials.wgsl")
-    );
-
     /// Layouts of groups 1 and 2.
     pub fn layouts(gpu: &Gpu) -> [wgpu::BindGroupLayout; 2] {
         [Casters::layout(gpu), texture_layout(gpu)]

@@ -3,15 +3,15 @@
 
 use super::DepthMaps;
 use crate::fullscreen::{STORAGE, UNIFORM, bind, layout};
-use crate::shader::{MAP_CELLS, Shader, shader_struct};
+use crate::shader::{Shader, Shared, shader_struct};
 use crate::{gpu::Gpu, passes::Passes};
 
 /// Makes the pyramid, level by level.
-pub(crate) const BOUNDS_SHADER: Shader = Shader {
-    name: "map bounds",
-    parts: &[MAP_CELLS, include_str!("../wgsl/map_bounds.wgsl")],
-    layouts: &[MapBoundsHead::LAYOUT, MapBoundsPass::LAYOUT],
-};
+pub(crate) const BOUNDS_SHADER: Shader =
+    Shader::new("map bounds", include_str!("stages/map_bounds.wgsl")).with_layouts(&[MapBoundsPass::LAYOUT]);
+
+/// What the host has to agree on with `map_cells.wgsl`.
+pub(super) const SHARED: Shared = Shared { module: "map_cells", layouts: &[MapBoundsHead::LAYOUT], constants: &[] };
 
 /// Most cells a side of the finest level: larger maps have wider cells.
 const MOST_CELLS: u32 = 1024;
@@ -23,7 +23,7 @@ const FINEST: u32 = 2;
 const WORKGROUP: u32 = 8;
 
 shader_struct! {
-    /// See `wgsl/map_cells.wgsl`.
+    /// See `stages/map_cells.wgsl`.
     pub(crate) struct MapBoundsHead {
         cells: u32,
         finest: u32,
@@ -33,7 +33,7 @@ shader_struct! {
 }
 
 shader_struct! {
-    /// See `wgsl/map_bounds.wgsl`.
+    /// See `stages/map_bounds.wgsl`.
     pub(crate) struct MapBoundsPass {
         layer: u32,
         level: u32,

@@ -8,7 +8,7 @@ use umbrage_core::light_view::LightView;
 use umbrage_core::{Bounds, LightShape};
 
 shader_struct! {
-    /// The light as a surface, see `wgsl/map_layers.wgsl`.
+    /// The light as a surface, see `lookup/map_layers.wgsl`.
     pub(crate) struct LightExtent {
         right: [f32; 3],
         pad: f32,

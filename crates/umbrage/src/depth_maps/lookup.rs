@@ -24,7 +24,7 @@ pub(crate) struct Lookup {
     /// Layout of what the technique binds besides, as group 2.
     more: Option<wgpu::BindGroupLayout>,
     pipelines: Vec<(Variant, Draws)>,
-    /// The shader has a `quick_share`, see `wgsl/map_quick.wgsl`.
+    /// The shader has a `quick_share`, see `lookup/map_quick.wgsl`.
     is_quick: bool,
     open: OpenPixels,
     uniforms: wgpu::Buffer,
@@ -87,7 +87,7 @@ impl Lookup {
         }
     }
 
-    /// Looks up in two phases; the shader has a `quick_share`, see `wgsl/map_quick.wgsl`.
+    /// Looks up in two phases; the shader has a `quick_share`, see `lookup/map_quick.wgsl`.
     pub(super) fn in_phases(&mut self) {
         self.is_quick = true;
     }

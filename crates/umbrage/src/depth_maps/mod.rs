@@ -1,5 +1,5 @@
 //! Depth maps of a light, for every technique that compares with them: fitted, culled and rendered here, looked up
-//! through `wgsl/map_lookup.wgsl`.
+//! through `lookup/map_lookup.wgsl`.
 
 mod bounds;
 mod cache;
@@ -27,14 +27,13 @@ use crate::{
     gpu::Gpu,
     params::Settings,
     passes::Passes,
-    shader::Shader,
+    shader::{Shader, Shared},
     technique::{DebugView, Stats, Technique},
     view::View,
     visibility::VisibilityTarget,
 };
 pub(crate) use bounds::BOUNDS_SHADER;
 use cache::{Frame, Work};
-use extent::LightExtent;
 use layer::{Layer, Lists};
 use lookup::Lookup;
 use movers::Movers;
@@ -47,15 +46,16 @@ pub(crate) use stage::Stage;
 use submission::Submission;
 pub(crate) use taps::{GRADIENT_NOISE, NOISE, TESTS, TILE, Taps};
 use textures::Textures;
-pub use uniforms::Eye;
 use uniforms::MapView;
-pub(crate) use uniforms::{LOOKUP_LAYOUTS, TAP_LAYOUTS};
 pub(crate) use views::Layers;
 use views::Views;
 pub(crate) use warped::{CUBE, FILTER_KERNEL, GIVE_WAY, HEIGHT, NEAR_PLANE, PLANE, SHIFT, STRENGTH, WARPED_FILTER};
 
 /// The shaders that render maps, for the registry's tests.
 pub(crate) const SHADERS: [Shader; 3] = [pipelines::DEPTH_SHADER, pipelines::SECOND_SHADER, pipelines::MIDPOINT_SHADER];
+
+/// What the host has to agree on with the modules of this folder.
+pub(crate) const SHARED: &[Shared] = &[uniforms::SHARED[0], uniforms::SHARED[1], taps::SHARED, bounds::SHARED];
 
 use umbrage_core::light_view::{FitScene, Focus, LightView, Omni};
 use umbrage_core::{Bounds, LightKind, LightKinds, glam::DVec3, scene_tree::Sphere};
@@ -102,7 +102,7 @@ impl MapTechnique {
         Ok(Self { maps, fitter, stage, lookup, draws: 0 })
     }
 
-    /// Looks up in two phases, see `wgsl/map_quick.wgsl`.
+    /// Looks up in two phases, see `lookup/map_quick.wgsl`.
     pub(crate) fn in_phases(mut self) -> Self {
         self.lookup.in_phases();
         self

@@ -4,41 +4,19 @@ use super::cache::Work;
 use super::layer::Layer;
 use super::textures::{FORMAT, Textures};
 use super::uniforms::MapView;
-use crate::casters::{CASTERS_WGSL, Casters, InstanceNumbers, MATERIALS_WGSL, Surface, texture_layout, vertex_layouts};
+use crate::casters::{Casters, InstanceNumbers, Surface, texture_layout, vertex_layouts};
 use crate::fullscreen::{self, UNIFORM, bind, layout};
-use crate::shader::{FULLSCREEN, MAP_STORAGE, Shader};
+use crate::shader::Shader;
 use crate::{gpu::Gpu, passes::Passes};
 
 /// Nearest surface, opaque and alpha-masked.
-pub(crate) const DEPTH_SHADER: Shader = Shader {
-    name: "shadow map",
-    parts: &[
-        CASTERS_WGSL,
-        MATERIALS_WGSL,
-        MAP_STORAGE,
-        include_str!("../wgsl/map_depth.wgsl"),
-        include_str!("../wgsl/map_paraboloid.wgsl"),
-    ],
-    layouts: &[MapView::LAYOUT, crate::casters::Instance::LAYOUT, crate::casters::MATERIAL_LAYOUT],
-};
+pub(crate) const DEPTH_SHADER: Shader = Shader::new("shadow map", "// needs: map_depth, map_paraboloid");
 
 /// Second surface.
-pub(crate) const SECOND_SHADER: Shader = Shader {
-    name: "second surface",
-    parts: &[
-        CASTERS_WGSL,
-        MATERIALS_WGSL,
-        MAP_STORAGE,
-        include_str!("../wgsl/map_depth.wgsl"),
-        include_str!("../wgsl/map_paraboloid.wgsl"),
-        include_str!("../wgsl/map_second.wgsl"),
-    ],
-    layouts: DEPTH_SHADER.layouts,
-};
+pub(crate) const SECOND_SHADER: Shader = Shader::new("second surface", include_str!("draw/map_second.wgsl"));
 
 /// Mean of the two.
-pub(crate) const MIDPOINT_SHADER: Shader =
-    Shader { name: "midpoint", parts: &[FULLSCREEN, include_str!("../wgsl/map_midpoint.wgsl")], layouts: &[] };
+pub(crate) const MIDPOINT_SHADER: Shader = Shader::new("midpoint", include_str!("draw/map_midpoint.wgsl"));
 
 /// What pipelines are made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

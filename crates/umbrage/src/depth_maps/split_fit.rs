@@ -2,23 +2,25 @@
 //!
 //! Sources: Lauritzen, Salvi and Lefohn, "Sample Distribution Shadow Maps", 2011 (the range; parts are cropped by their corners).
 
-use super::uniforms::{Eye, MapLayer, MapLookup, texels_in_plane};
-use super::{DepthMaps, LightExtent};
+use super::DepthMaps;
+use super::uniforms::{MapLayer, texels_in_plane};
 use crate::fullscreen::{STORAGE_WRITE, UNIFORM, bind, layout};
-use crate::shader::{MAP_LOOKUP, RECEIVERS, Shader, shader_struct};
-use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View};
+use crate::shader::{Shader, shader_struct};
+use crate::{
+    gpu::Gpu,
+    passes::Passes,
+    receivers::{Eye, Receivers},
+    view::View,
+};
 use umbrage_core::glam::{DMat4, DVec4};
 use umbrage_core::light_view::LightView;
 
 /// Finds the range of visible depths and crops views to parts of it.
-pub(crate) const SPLIT_FIT_SHADER: Shader = Shader {
-    name: "split fit",
-    parts: &[RECEIVERS, MAP_LOOKUP, include_str!("../wgsl/split_fit.wgsl")],
-    layouts: &[Eye::LAYOUT, MapLayer::LAYOUT, LightExtent::LAYOUT, MapLookup::LAYOUT, SplitFit::LAYOUT],
-};
+pub(crate) const SPLIT_FIT_SHADER: Shader =
+    Shader::new("split fit", include_str!("stages/split_fit.wgsl")).with_layouts(&[SplitFit::LAYOUT]);
 
 shader_struct! {
-    /// See `wgsl/split_fit.wgsl`.
+    /// See `stages/split_fit.wgsl`.
     pub(crate) struct SplitFit {
         eye: Eye,
         base: MapLayer,

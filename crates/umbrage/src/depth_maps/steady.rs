@@ -20,7 +20,7 @@ pub(super) fn share_first(views: &[LightView], layers: &mut [MapLayer]) {
 /// Of a layer that was not rendered: every point is outside of its map.
 const OUTSIDE: [f32; 4] = [0.0, 0.0, -1.0, -1.0];
 
-/// See `wgsl/map_layers.wgsl`.
+/// See `lookup/map_layers.wgsl`.
 fn from_first(first: &LightView, view: &LightView) -> [f32; 4] {
     let [(from, wide_from), (to, wide_to)] = [first, view].map(place);
     let scale = wide_from / wide_to;

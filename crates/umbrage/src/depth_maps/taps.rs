@@ -1,8 +1,8 @@
-//! The table of taps on the GPU, see `wgsl/map_taps.wgsl`.
+//! The table of taps on the GPU, see `stages/map_taps.wgsl`.
 
 use crate::gpu::Gpu;
 use crate::params::{Param, ParamKind, Settings};
-use crate::shader::shader_struct;
+use crate::shader::{Shared, shader_struct};
 use umbrage_core::sampling::{Domain, Pattern, TapTable};
 use umbrage_core::{LightShape, Texture};
 
@@ -42,6 +42,9 @@ shader_struct! {
         is_square: u32,
     }
 }
+
+/// What the host has to agree on with `map_taps.wgsl`.
+pub(super) const SHARED: Shared = Shared { module: "map_taps", layouts: &[TapsHead::LAYOUT], constants: &[] };
 
 /// Taps for one kind of light.
 pub(crate) struct Taps {

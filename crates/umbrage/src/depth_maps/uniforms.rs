@@ -2,13 +2,13 @@
 
 use super::DepthMaps;
 use super::extent::{LightExtent, nearest};
-use crate::{shader::shader_struct, view::View};
+use crate::{receivers::Eye, shader::Shared, shader::shader_struct, view::View};
 use umbrage_core::Bounds;
 use umbrage_core::glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use umbrage_core::light_view::{FARTHEST, LightView, Paraboloid};
 
 shader_struct! {
-    /// What the shaders that draw a map need, see `wgsl/map_depth.wgsl`.
+    /// What the shaders that draw a map need, see `draw/map_depth.wgsl`.
     pub(crate) struct MapView {
         clip_from_world: [[f32; 4]; 4],
         clip_from_plane: [f32; 4],
@@ -20,21 +20,7 @@ shader_struct! {
 }
 
 shader_struct! {
-    /// How to get from a pixel to the surface it shows, see `wgsl/receivers.wgsl`.
-    pub struct Eye {
-        /// The camera's normalised device coordinates to space relative to the eye, homogeneous.
-        eye_from_ndc: [[f32; 4]; 4],
-        /// What a pixel is across and down.
-        ndc_from_pixel: [f32; 2],
-        /// What the depth buffer holds where nothing was drawn.
-        background_depth: f32,
-        /// The largest |x| + |y| + |z| of `eye_from_ndc` in the picture, before the division by w.
-        reach: f32,
-    }
-}
-
-shader_struct! {
-    /// One view of the light, see `wgsl/map_layers.wgsl`.
+    /// One view of the light, see `lookup/map_layers.wgsl`.
     pub(crate) struct MapLayer {
         map_from_ndc: [[f32; 4]; 4],
         slope_right: [f32; 3],
@@ -55,7 +41,7 @@ shader_struct! {
 }
 
 shader_struct! {
-    /// See `wgsl/map_layers.wgsl`.
+    /// See `lookup/map_layers.wgsl`.
     pub(crate) struct MapLookup {
         eye: Eye,
         layers: [MapLayer; MOST_LAYERS],
@@ -74,13 +60,15 @@ shader_struct! {
     }
 }
 
-/// Host structs of a lookup shader.
-pub(crate) const LOOKUP_LAYOUTS: &[crate::shader::HostLayout] =
-    &[Eye::LAYOUT, MapLayer::LAYOUT, LightExtent::LAYOUT, MapLookup::LAYOUT];
-
-/// Host structs of a lookup shader with taps.
-pub(crate) const TAP_LAYOUTS: &[crate::shader::HostLayout] =
-    &[Eye::LAYOUT, MapLayer::LAYOUT, LightExtent::LAYOUT, MapLookup::LAYOUT, super::taps::TapsHead::LAYOUT];
+/// What the host has to agree on with `map_depth.wgsl` and `map_layers.wgsl`.
+pub(super) const SHARED: [Shared; 2] = [
+    Shared { module: "map_depth", layouts: &[MapView::LAYOUT], constants: &[] },
+    Shared {
+        module: "map_layers",
+        layouts: &[MapLayer::LAYOUT, LightExtent::LAYOUT, MapLookup::LAYOUT],
+        constants: &[],
+    },
+];
 
 impl MapView {
     /// For casters relative to `origin`.
@@ -103,22 +91,6 @@ impl MapView {
             },
             farthest: FARTHEST as f32,
             near: near(view) as f32,
-        }
-    }
-}
-
-impl Eye {
-    /// For the camera and size of `view`.
-    pub fn new(view: &View<'_>) -> Self {
-        let (width, height) = view.receivers.size;
-        let eye_from_ndc = view.clip_from_eye().inverse();
-        let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
-        let ends = corners.into_iter().flat_map(|(x, y)| [0.0, 1.0].map(|z| eye_from_ndc * DVec4::new(x, y, z, 1.0)));
-        Self {
-            reach: ends.map(|p| p.truncate().abs().element_sum()).fold(0.0, f64::max) as f32,
-            eye_from_ndc: eye_from_ndc.as_mat4().to_cols_array_2d(),
-            ndc_from_pixel: [2.0 / width as f32, -2.0 / height as f32],
-            background_depth: view.camera.background_depth(),
         }
     }
 }
@@ -274,7 +246,7 @@ fn warp(map_from_world: &DMat4) -> DVec4 {
     (inverse * w).truncate().extend(0.0).extend(0.0)
 }
 
-/// What a plane's normal has to do with the slope of its stored depth, see `plane_through` in `wgsl/map_lookup.wgsl`.
+/// What a plane's normal has to do with the slope of its stored depth, see `plane_through` in `lookup/map_lookup.wgsl`.
 struct Slopes {
     right: DVec3,
     down: DVec3,

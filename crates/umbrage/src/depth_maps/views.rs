@@ -29,7 +29,7 @@ pub(super) enum Blend {
 }
 
 impl Blend {
-    /// `BLEND` in `wgsl/map_layers.wgsl`.
+    /// `BLEND` in `lookup/map_layers.wgsl`.
     pub(super) fn number(self) -> f64 {
         f64::from(self as u8)
     }
@@ -176,7 +176,7 @@ impl Layers {
         }
     }
 
-    /// `LAYOUT` in `wgsl/map_layers.wgsl`.
+    /// `LAYOUT` in `lookup/map_layers.wgsl`.
     pub(super) fn number(self) -> f64 {
         match self {
             Self::Single => 0.0,

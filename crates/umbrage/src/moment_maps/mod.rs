@@ -11,7 +11,7 @@ mod range;
 use crate::depth_maps::{DepthMaps, Stage, TapStage, Taps};
 use crate::fullscreen::{self, FLOATS, UNIFORM, bind, layout};
 use crate::params::{Param, ParamKind, Settings};
-use crate::shader::{HostLayout, Shader, shader_struct};
+use crate::shader::{Shader, Shared, shader_struct};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
 use blur::Blur;
 use made::Made;
@@ -42,7 +42,7 @@ pub(crate) const MIPS: Param = Param {
 };
 
 shader_struct! {
-    /// See `wgsl/moments_depth.wgsl`.
+    /// See `moments_depth.wgsl`.
     pub(crate) struct Moments {
         depth: [f32; 4],
         taps: [f32; 3],
@@ -54,8 +54,8 @@ shader_struct! {
     }
 }
 
-/// Host structs of the passes.
-pub(crate) const PASS_LAYOUTS: &[HostLayout] = &[Moments::LAYOUT];
+/// What the host has to agree on with `moments_depth.wgsl`.
+pub(crate) const SHARED: Shared = Shared { module: "moments_depth", layouts: &[Moments::LAYOUT], constants: &[] };
 
 /// How a number is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -123,7 +123,7 @@ impl MomentStage {
     }
 
     /// With filters that follow the light, none narrower than `radius`. Their look-up finds taps and bounds before the moments, see
-    /// `wgsl/soft_taps.wgsl` and `wgsl/moments_soft.wgsl`.
+    /// `depth_maps/stages/soft_taps.wgsl` and `moments_soft.wgsl`.
     pub(crate) fn soft(gpu: &Gpu, settings: &Settings, recipe: &Recipe, taps: Taps) -> Self {
         Self::make(gpu, settings, recipe, true, Some(TapStage::light(gpu, taps, true)))
     }

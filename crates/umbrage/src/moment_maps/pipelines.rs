@@ -1,4 +1,4 @@
-//! The full-screen passes of `wgsl/moments_passes.wgsl`.
+//! The full-screen passes of `moments_passes.wgsl`.
 
 use super::Recipe;
 use super::blur::Blur;

@@ -9,7 +9,7 @@ use crate::{gpu::Gpu, passes::Passes};
 use std::ops::Range;
 
 shader_struct! {
-    /// See `wgsl/find_silhouettes.wgsl`.
+    /// See `find_silhouettes.wgsl`.
     pub(crate) struct FindSilhouettes {
         edge_chunks: u32,
         triangle_chunks: u32,

@@ -7,9 +7,9 @@
 mod find;
 mod work;
 
-use crate::casters::{EDGES_WGSL, Edge, Edges, INSTANCES_WGSL, Instance};
+use crate::casters::Edges;
 use crate::fullscreen::{STORAGE, UNIFORM, layout};
-use crate::shader::{HostLayout, Shader, shader_struct};
+use crate::shader::{Shader, Shared, shader_struct};
 use crate::{casters::Casters, error::Error, gpu::Gpu, passes::Passes};
 use find::Find;
 use std::ops::Range;
@@ -17,21 +17,18 @@ use umbrage_core::glam::{DMat4, DVec4, Vec3};
 use umbrage_core::silhouette::{Rule, light_in_mesh};
 use work::{Buffers, Work};
 
-/// Extrudes what was found; a technique adds fragment shaders.
-pub(crate) const EXTRUDE_PARTS: [&str; 3] = [INSTANCES_WGSL, EDGES_WGSL, include_str!("../wgsl/extrude.wgsl")];
-
 /// Finds what bounds a shadow, by compute.
-pub(crate) const FIND_SHADER: Shader = Shader {
-    name: "find silhouettes",
-    parts: &[EDGES_WGSL, include_str!("../wgsl/find_silhouettes.wgsl")],
-    layouts: &[Edge::LAYOUT, Caster::LAYOUT, find::FindSilhouettes::LAYOUT],
-};
+pub(crate) const FIND_SHADER: Shader = Shader::new("find silhouettes", include_str!("find_silhouettes.wgsl"))
+    .with_layouts(&[find::FindSilhouettes::LAYOUT]);
 
-/// Host structs that [`EXTRUDE_PARTS`] declare.
-pub(crate) const EXTRUDE_LAYOUTS: &[HostLayout] = &[Edge::LAYOUT, Caster::LAYOUT, Instance::LAYOUT, Extrusion::LAYOUT];
+/// What the host has to agree on with the modules that extrude what was found.
+pub(crate) const SHARED: &[Shared] = &[
+    Shared { module: "edges", layouts: &[Caster::LAYOUT], constants: &[] },
+    Shared { module: "extrude", layouts: &[Extrusion::LAYOUT], constants: &[] },
+];
 
 shader_struct! {
-    /// A caster under one light, see `wgsl/edges.wgsl`.
+    /// A caster under one light, see `casters/edges.wgsl`.
     pub(crate) struct Caster {
         light: [f32; 4],
         end: [f32; 4],
@@ -55,7 +52,7 @@ shader_struct! {
 }
 
 shader_struct! {
-    /// What the vertex shaders need of camera and light, see `wgsl/extrude.wgsl`.
+    /// What the vertex shaders need of camera and light, see `extrude.wgsl`.
     pub(crate) struct Extrusion {
         clip_from_world: [[f32; 4]; 4],
         light: [f32; 4],

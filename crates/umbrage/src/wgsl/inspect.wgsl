@@ -1,4 +1,5 @@
-// What pictures of a technique's inside are drawn over, and numbers as colours. After `receivers.wgsl`.
+// needs: receivers
+// What pictures of a technique's inside are drawn over, and numbers as colours.
 
 // The scene in dark greys, by how much surfaces face the eye.
 fn grey(eye: Eye, at: vec4f) -> vec3f {

@@ -1,3 +1,4 @@
+// needs: fullscreen
 // Sums visibilities of single light samples, then divides by their number.
 
 @group(0) @binding(0) var visibility_texture: texture_2d<f32>;

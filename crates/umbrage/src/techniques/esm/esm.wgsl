@@ -1,3 +1,4 @@
+// needs: map_visibility, moments_lookup, moments
 // Exponential shadow maps (Annen et al. 2008).
 
 // Shares of light of the texels around, each compared with the receiver's plane continued to there.

@@ -3,59 +3,26 @@
 //! Source: Annen, Mertens, Seidel, Flerackers and Kautz, "Exponential Shadow Maps", 2008.
 
 use crate::depth_maps::{
-    BIAS, CACHE, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
+    BIAS, CACHE, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE,
 };
-use crate::moment_maps::{Coding, FORMAT, MIPS, MomentStage, PASS_LAYOUTS, RADIUS, Recipe};
+use crate::moment_maps::{Coding, FORMAT, MIPS, MomentStage, RADIUS, Recipe};
 use crate::params::{Param, ParamKind};
-use crate::shader::{
-    FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, MOMENTS_DEPTH, MOMENTS_FLOAT, MOMENTS_LOOKUP, MOMENTS_PASSES,
-    MOMENTS_UNORM, RECEIVERS, Shader,
-};
+use crate::shader::{Module, Shader};
 use crate::technique::TechniqueInfo;
 
-const MOMENTS: &str = include_str!("moments.wgsl");
-const ESM: &str = include_str!("esm.wgsl");
+const MODULES: &[Module] = &[
+    Module { name: "moments", source: include_str!("moments.wgsl") },
+    Module { name: "esm", source: include_str!("esm.wgsl") },
+];
 
-const PASSES: Shader = Shader {
-    name: "esm moments",
-    parts: &[FULLSCREEN, MOMENTS_DEPTH, MOMENTS_FLOAT, MOMENTS, MOMENTS_PASSES],
-    layouts: PASS_LAYOUTS,
-};
-const PASSES_16: Shader = Shader {
-    name: "esm moments, 16 bits",
-    parts: &[FULLSCREEN, MOMENTS_DEPTH, MOMENTS_UNORM, MOMENTS, MOMENTS_PASSES],
-    layouts: PASS_LAYOUTS,
-};
-const LOOKUP: Shader = Shader {
-    name: "esm",
-    parts: &[
-        FULLSCREEN,
-        RECEIVERS,
-        MAP_LOOKUP,
-        MAP_VISIBILITY,
-        MOMENTS_DEPTH,
-        MOMENTS_FLOAT,
-        MOMENTS,
-        MOMENTS_LOOKUP,
-        ESM,
-    ],
-    layouts: LOOKUP_LAYOUTS,
-};
-const LOOKUP_16: Shader = Shader {
-    name: "esm, 16 bits",
-    parts: &[
-        FULLSCREEN,
-        RECEIVERS,
-        MAP_LOOKUP,
-        MAP_VISIBILITY,
-        MOMENTS_DEPTH,
-        MOMENTS_UNORM,
-        MOMENTS,
-        MOMENTS_LOOKUP,
-        ESM,
-    ],
-    layouts: LOOKUP_LAYOUTS,
-};
+const fn shader(name: &'static str, needs: &'static str) -> Shader {
+    Shader::new(name, needs).with_modules(MODULES)
+}
+
+const PASSES: Shader = shader("esm moments", "// needs: moments_passes, moments_float, moments");
+const PASSES_16: Shader = shader("esm moments, 16 bits", "// needs: moments_passes, moments_unorm, moments");
+const LOOKUP: Shader = shader("esm", "// needs: esm, moments_float");
+const LOOKUP_16: Shader = shader("esm, 16 bits", "// needs: esm, moments_unorm");
 
 const BLEEDING: Param = Param {
     name: "bleeding",

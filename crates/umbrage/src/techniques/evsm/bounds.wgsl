@@ -1,3 +1,4 @@
+// needs: moments_share, moments
 // What warped moments say of the share of light.
 
 // 2: the growing warp alone, 4: both.

@@ -1,3 +1,4 @@
+// needs: map_visibility, moments_lookup, bounds
 // Exponential variance shadow maps (Lauritzen 2008) with a filter of one width.
 
 fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {

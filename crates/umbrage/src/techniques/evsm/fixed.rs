@@ -1,37 +1,20 @@
 //! A filter of one width.
 
 use super::growth;
-use crate::depth_maps::{LOOKUP_LAYOUTS, MapTechnique};
-use crate::moment_maps::{Coding, MomentStage, PASS_LAYOUTS, Recipe};
-use crate::shader::{
-    FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, MOMENTS_DEPTH, MOMENTS_FLOAT, MOMENTS_LOOKUP, MOMENTS_MEAN, MOMENTS_PASSES,
-    RECEIVERS, Shader,
-};
+use crate::depth_maps::MapTechnique;
+use crate::moment_maps::{Coding, MomentStage, Recipe};
+use crate::shader::{Module, Shader};
 use crate::{error::Error, gpu::Gpu, params::Settings};
 
-const MOMENTS: &str = include_str!("moments.wgsl");
+const MODULES: &[Module] = &[
+    Module { name: "moments", source: include_str!("moments.wgsl") },
+    Module { name: "bounds", source: include_str!("bounds.wgsl") },
+    Module { name: "evsm", source: include_str!("evsm.wgsl") },
+];
 
-pub(super) const PASSES: Shader = Shader {
-    name: "evsm moments",
-    parts: &[FULLSCREEN, MOMENTS_DEPTH, MOMENTS_FLOAT, MOMENTS_MEAN, MOMENTS, MOMENTS_PASSES],
-    layouts: PASS_LAYOUTS,
-};
-pub(super) const LOOKUP: Shader = Shader {
-    name: "evsm",
-    parts: &[
-        FULLSCREEN,
-        RECEIVERS,
-        MAP_LOOKUP,
-        MAP_VISIBILITY,
-        MOMENTS_DEPTH,
-        MOMENTS_FLOAT,
-        MOMENTS,
-        MOMENTS_LOOKUP,
-        include_str!("bounds.wgsl"),
-        include_str!("evsm.wgsl"),
-    ],
-    layouts: LOOKUP_LAYOUTS,
-};
+pub(super) const PASSES: Shader =
+    Shader::new("evsm moments", "// needs: moments_passes, moments_float, moments").with_modules(MODULES);
+pub(super) const LOOKUP: Shader = Shader::new("evsm", "// needs: evsm, moments_float").with_modules(MODULES);
 
 pub(super) fn make(gpu: &Gpu, settings: &Settings) -> Result<MapTechnique, Error> {
     let half = settings.choice("format") == "16";

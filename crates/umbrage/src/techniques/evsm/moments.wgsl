@@ -1,3 +1,4 @@
+// needs: moments_mean
 // Warped depth and its square, of one exponential that grows and of one that falls.
 
 // Of the growing and of the falling one, over half the range of depth.

@@ -1,68 +1,26 @@
 //! A filter that follows the light.
 
 use super::growth;
-use crate::depth_maps::{MapTechnique, TAP_LAYOUTS, Taps};
-use crate::moment_maps::{Coding, MomentStage, PASS_LAYOUTS, Recipe};
-use crate::shader::{
-    FULLSCREEN, LIGHT_KERNEL, MAP_CELLS, MAP_LOOKUP, MAP_TAPS, MAP_VISIBILITY, MOMENTS_DEPTH, MOMENTS_FLOAT,
-    MOMENTS_MEAN, MOMENTS_PASSES, MOMENTS_SOFT, MOMENTS_UNORM, RECEIVERS, SOFT_TAPS, Shader,
-};
+use crate::depth_maps::{MapTechnique, Taps};
+use crate::moment_maps::{Coding, MomentStage, Recipe};
+use crate::shader::{Module, Shader};
 use crate::{error::Error, gpu::Gpu, params::Settings};
 
-const MOMENTS: &str = include_str!("soft_moments.wgsl");
-const BOUNDS: &str = include_str!("soft_bounds.wgsl");
-const SOFT: &str = include_str!("soft.wgsl");
+const MODULES: &[Module] = &[
+    Module { name: "soft_moments", source: include_str!("soft_moments.wgsl") },
+    Module { name: "soft_bounds", source: include_str!("soft_bounds.wgsl") },
+    Module { name: "soft", source: include_str!("soft.wgsl") },
+];
 
-pub(super) const PASSES: Shader = Shader {
-    name: "soft evsm moments",
-    parts: &[FULLSCREEN, MOMENTS_DEPTH, MOMENTS_FLOAT, MOMENTS_MEAN, MOMENTS, MOMENTS_PASSES],
-    layouts: PASS_LAYOUTS,
-};
-pub(super) const PASSES_16: Shader = Shader {
-    name: "soft evsm moments, 16 bits",
-    parts: &[FULLSCREEN, MOMENTS_DEPTH, MOMENTS_UNORM, MOMENTS_MEAN, MOMENTS, MOMENTS_PASSES],
-    layouts: PASS_LAYOUTS,
-};
-pub(super) const LOOKUP: Shader = Shader {
-    name: "soft evsm",
-    parts: &[
-        FULLSCREEN,
-        RECEIVERS,
-        MAP_LOOKUP,
-        MAP_VISIBILITY,
-        LIGHT_KERNEL,
-        MAP_TAPS,
-        MAP_CELLS,
-        SOFT_TAPS,
-        MOMENTS_DEPTH,
-        MOMENTS_FLOAT,
-        MOMENTS,
-        MOMENTS_SOFT,
-        BOUNDS,
-        SOFT,
-    ],
-    layouts: TAP_LAYOUTS,
-};
-pub(super) const LOOKUP_16: Shader = Shader {
-    name: "soft evsm, 16 bits",
-    parts: &[
-        FULLSCREEN,
-        RECEIVERS,
-        MAP_LOOKUP,
-        MAP_VISIBILITY,
-        LIGHT_KERNEL,
-        MAP_TAPS,
-        MAP_CELLS,
-        SOFT_TAPS,
-        MOMENTS_DEPTH,
-        MOMENTS_UNORM,
-        MOMENTS,
-        MOMENTS_SOFT,
-        BOUNDS,
-        SOFT,
-    ],
-    layouts: TAP_LAYOUTS,
-};
+const fn shader(name: &'static str, needs: &'static str) -> Shader {
+    Shader::new(name, needs).with_modules(MODULES)
+}
+
+pub(super) const PASSES: Shader = shader("soft evsm moments", "// needs: moments_passes, moments_float, soft_moments");
+pub(super) const PASSES_16: Shader =
+    shader("soft evsm moments, 16 bits", "// needs: moments_passes, moments_unorm, soft_moments");
+pub(super) const LOOKUP: Shader = shader("soft evsm", "// needs: soft, moments_float");
+pub(super) const LOOKUP_16: Shader = shader("soft evsm, 16 bits", "// needs: soft, moments_unorm");
 
 /// Taps that look for blockers, and that filter. What lies between these is in the moments.
 const SEARCH: u32 = 24;

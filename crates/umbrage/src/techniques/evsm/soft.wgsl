@@ -1,3 +1,4 @@
+// needs: map_visibility, moments_soft, soft_bounds
 // Exponential variance shadow maps whose filter follows the light. Blockers are looked for as `pcss` does. The filter's taps are few: each
 // sees all that lies between it and its neighbours, with the receiver's plane continued to its own place.
 

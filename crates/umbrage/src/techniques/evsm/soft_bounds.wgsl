@@ -1,3 +1,4 @@
+// needs: moments_share, soft_moments
 // What the moments of the growing warp and those of depth say of the share of light.
 
 // What rounding may make of no variance: relative to the squared warp, and absolute.

@@ -1,3 +1,4 @@
+// needs: moments_mean
 // Warped depth and its square, and depth and its square: two steepnesses, of which the lesser is 0.
 
 override GROWTH: f32 = 42.0;

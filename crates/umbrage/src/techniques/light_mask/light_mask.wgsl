@@ -1,3 +1,4 @@
+// needs: fullscreen, receivers, area_light
 // The light as a set of samples: every triangle before it strikes out those that it hides, so that whatever casters share counts
 // once. Triangles are found in hierarchies of boxes by the pyramid from the point to the light.
 

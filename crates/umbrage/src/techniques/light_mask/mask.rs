@@ -5,19 +5,16 @@ use super::grown::storage;
 use super::half_planes::{DISTANCES, TURNS, half_planes};
 use super::samples::{reach, samples};
 use super::tree::TreeNode;
-use crate::area_light::{AREA_LIGHT, AreaLight, Face, Form, Frame, ROUNDING};
-use crate::depth_maps::Eye;
+use crate::area_light::{AreaLight, Face, Form, Frame, ROUNDING};
+use crate::receivers::Eye;
 use crate::fullscreen::{Fullscreen, STORAGE, UNIFORM, bind, layout};
 use crate::receivers::Receivers;
-use crate::shader::{FULLSCREEN, RECEIVERS, Shader};
+use crate::shader::Shader;
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
 use umbrage_core::{LightShape, Texture};
 
-pub(super) const MASK_SHADER: Shader = Shader {
-    name: "light mask",
-    parts: &[FULLSCREEN, RECEIVERS, AREA_LIGHT, include_str!("light_mask.wgsl")],
-    layouts: &[AreaLight::LAYOUT, Eye::LAYOUT, TreeNode::LAYOUT, Placed::LAYOUT],
-};
+pub(super) const MASK_SHADER: Shader =
+    Shader::new("light mask", include_str!("light_mask.wgsl")).with_layouts(&[TreeNode::LAYOUT, Placed::LAYOUT]);
 
 /// Samples in a word of the mask.
 const WORD: u32 = 32;

@@ -1,3 +1,4 @@
+// needs: moments_mean
 // The first four powers of depth, from −1 to 1.
 
 fn moments_of(depth: f32) -> vec4f {

@@ -1,3 +1,4 @@
+// needs: map_visibility, moments_lookup, moments
 // Moment shadow maps with four moments (Peters and Klein 2015): the smallest share of shadow that fits the moments.
 
 // How much of another distribution is mixed in, against rounding.

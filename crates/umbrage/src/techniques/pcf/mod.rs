@@ -3,17 +3,13 @@
 //! Sources: Reeves, Salesin and Cook 1987; ZA 3.2; FE 2.3.1.
 
 use crate::depth_maps::{
-    BIAS, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
+    BIAS, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE,
 };
 use crate::params::{Param, ParamKind};
-use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, RECEIVERS, Shader};
+use crate::shader::Shader;
 use crate::technique::TechniqueInfo;
 
-const SHADER: Shader = Shader {
-    name: "pcf",
-    parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, include_str!("pcf.wgsl")],
-    layouts: LOOKUP_LAYOUTS,
-};
+const SHADER: Shader = Shader::new("pcf", include_str!("pcf.wgsl"));
 
 const KERNEL: Param = Param {
     name: "kernel",

@@ -1,3 +1,4 @@
+// needs: map_visibility
 // Percentage-closer filtering: the share of compares that pass around the receiver (ZA 3.2, FE 2.3.1).
 
 // 2, 3, 5, 7: a square of that many bilinear compares a side; 0: a disc.

@@ -1,3 +1,4 @@
+// needs: receivers, quads
 // A Gaussian along rows or columns (ZA 3.3), a quad at a time: `fn values_at(quad: vec2i) -> vec4f` gives what is blurred.
 
 // Two standard deviations, pixels.

@@ -1,3 +1,4 @@
+// needs: blur
 // Blurs columns of what `rows.wgsl` leaves.
 
 @group(1) @binding(3) var rows: texture_2d<u32>;

@@ -8,33 +8,30 @@ mod technique;
 mod tiles;
 
 use crate::depth_maps::{
-    BIAS, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
+    BIAS, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE,
 };
 use crate::params::{Param, ParamKind};
-use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, RECEIVERS, Shader};
+use crate::shader::{Module, Shader};
 use crate::technique::TechniqueInfo;
 use blur::{Blur, ScreenBlur};
 use technique::Blurred;
 
-const SOURCE_SHADER: Shader = Shader {
-    name: "pcf-blur source",
-    parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, include_str!("source.wgsl")],
-    layouts: LOOKUP_LAYOUTS,
-};
+const SOURCE_SHADER: Shader = Shader::new("pcf-blur source", include_str!("source.wgsl"));
 
-const HEAD: &str = include_str!("head.wgsl");
-const QUADS: &str = include_str!("quads.wgsl");
-const BLUR: &str = include_str!("blur.wgsl");
+const MODULES: &[Module] = &[
+    Module { name: "head", source: include_str!("head.wgsl") },
+    Module { name: "quads", source: include_str!("quads.wgsl") },
+    Module { name: "blur", source: include_str!("blur.wgsl") },
+];
 
-const fn shader(name: &'static str, parts: &'static [&'static str]) -> Shader {
-    Shader { name, parts, layouts: &[Blur::LAYOUT] }
+const fn shader(name: &'static str, source: &'static str) -> Shader {
+    Shader::new(name, source).with_modules(MODULES).with_layouts(&[Blur::LAYOUT])
 }
 
-const TILES_SHADER: Shader = shader("pcf-blur tiles", &[HEAD, include_str!("tiles.wgsl")]);
-const ROWS_SHADER: Shader = shader("pcf-blur rows", &[RECEIVERS, HEAD, QUADS, BLUR, include_str!("rows.wgsl")]);
-const COLUMNS_SHADER: Shader =
-    shader("pcf-blur columns", &[RECEIVERS, HEAD, QUADS, BLUR, include_str!("columns.wgsl")]);
-const RESULT_SHADER: Shader = shader("pcf-blur result", &[HEAD, include_str!("result.wgsl")]);
+const TILES_SHADER: Shader = shader("pcf-blur tiles", include_str!("tiles.wgsl"));
+const ROWS_SHADER: Shader = shader("pcf-blur rows", include_str!("rows.wgsl"));
+const COLUMNS_SHADER: Shader = shader("pcf-blur columns", include_str!("columns.wgsl"));
+const RESULT_SHADER: Shader = shader("pcf-blur result", include_str!("result.wgsl"));
 
 const SOURCE: Param = Param {
     name: "source",

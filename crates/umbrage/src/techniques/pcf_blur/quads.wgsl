@@ -1,3 +1,4 @@
+// needs: head
 // Quads: two by two pixels. Visibility is a whole number, 0 for what faces away from the light, else 1 to 255 for none to all of it;
 // four of them are a word.
 

@@ -1,3 +1,4 @@
+// needs: head
 // Puts blurred tiles into the visibility target.
 
 @group(0) @binding(0) var<uniform> blur: Blur;

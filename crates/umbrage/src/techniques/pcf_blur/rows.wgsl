@@ -1,3 +1,4 @@
+// needs: blur
 // Blurs rows of a visibility target.
 
 @group(1) @binding(3) var source: texture_2d<f32>;

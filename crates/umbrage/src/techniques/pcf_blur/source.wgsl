@@ -1,3 +1,4 @@
+// needs: map_visibility
 // What is blurred: percentage-closer filtering over a square of 3 × 3 bilinear compares (ZA 3.2), or a single compare.
 
 override IS_HARD: bool = false;

@@ -1,3 +1,4 @@
+// needs: head
 // Finds the tiles around which visibility differs.
 
 struct TileCounts {

@@ -3,18 +3,14 @@
 //! Sources: Uralsky, "Efficient Soft-Edged Shadows Using Pixel Shader Branching", 2005; ZA 3.4.
 
 use crate::depth_maps::{
-    BIAS, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, NOISE, OMNI, SHADERS, SIZE, TAP_LAYOUTS,
+    BIAS, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, NOISE, OMNI, SHADERS, SIZE,
     TESTS, TILE, TapStage, Taps,
 };
 use crate::params::{Param, ParamKind};
-use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_TAPS, MAP_VISIBILITY, RECEIVERS, Shader};
+use crate::shader::Shader;
 use crate::technique::TechniqueInfo;
 
-const SHADER: Shader = Shader {
-    name: "pcf-jitter",
-    parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, MAP_TAPS, include_str!("pcf_jitter.wgsl")],
-    layouts: TAP_LAYOUTS,
-};
+const SHADER: Shader = Shader::new("pcf-jitter", include_str!("pcf_jitter.wgsl"));
 
 const TAPS: Param = Param {
     name: "taps",

@@ -4,29 +4,13 @@
 
 use crate::depth_maps::{
     BIAS, BOUNDS_SHADER, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE,
-    TAP_LAYOUTS, TapStage, Taps,
+    TapStage, Taps,
 };
 use crate::params::{Param, ParamKind};
-use crate::shader::{
-    FULLSCREEN, LIGHT_KERNEL, MAP_CELLS, MAP_LOOKUP, MAP_TAPS, MAP_VISIBILITY, RECEIVERS, SOFT_TAPS, Shader,
-};
+use crate::shader::Shader;
 use crate::technique::TechniqueInfo;
 
-const SHADER: Shader = Shader {
-    name: "pcss",
-    parts: &[
-        FULLSCREEN,
-        RECEIVERS,
-        MAP_LOOKUP,
-        MAP_VISIBILITY,
-        LIGHT_KERNEL,
-        MAP_TAPS,
-        MAP_CELLS,
-        SOFT_TAPS,
-        include_str!("pcss.wgsl"),
-    ],
-    layouts: TAP_LAYOUTS,
-};
+const SHADER: Shader = Shader::new("pcss", include_str!("pcss.wgsl"));
 
 const SEARCH: Param = Param {
     name: "search",

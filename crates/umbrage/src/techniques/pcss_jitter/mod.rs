@@ -4,30 +4,13 @@
 
 use crate::depth_maps::{
     BIAS, BOUNDS_SHADER, CACHE, DEPTH, FACES, FOCUS, GRADIENT_NOISE, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS,
-    SIZE, TAP_LAYOUTS, TESTS, TILE, TapStage, Taps,
+    SIZE, TESTS, TILE, TapStage, Taps,
 };
 use crate::params::{Param, ParamKind};
-use crate::shader::{
-    FULLSCREEN, LIGHT_KERNEL, MAP_CELLS, MAP_LOOKUP, MAP_QUICK, MAP_TAPS, MAP_VISIBILITY, RECEIVERS, SOFT_TAPS, Shader,
-};
+use crate::shader::Shader;
 use crate::technique::TechniqueInfo;
 
-const SHADER: Shader = Shader {
-    name: "pcss-jitter",
-    parts: &[
-        FULLSCREEN,
-        RECEIVERS,
-        MAP_LOOKUP,
-        MAP_VISIBILITY,
-        MAP_QUICK,
-        LIGHT_KERNEL,
-        MAP_TAPS,
-        MAP_CELLS,
-        SOFT_TAPS,
-        include_str!("pcss_jitter.wgsl"),
-    ],
-    layouts: TAP_LAYOUTS,
-};
+const SHADER: Shader = Shader::new("pcss-jitter", include_str!("pcss_jitter.wgsl"));
 
 const SEARCH: Param = Param {
     name: "search",

@@ -1,3 +1,4 @@
+// needs: map_quick, soft_taps
 // The combined method (ZA 4.4.3): a jittered search for blockers, then jittered taps as wide as the penumbra, the first few on the
 // rim and the rest only where these differ.
 

@@ -3,16 +3,12 @@
 //! Sources: Williams 1978; ZA 2.3; SG "Shadow Mapping", "Second Depth Shadow Maps" (midpoint), "Extensions" (focus).
 
 use crate::depth_maps::{
-    BIAS, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
+    BIAS, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE,
 };
-use crate::shader::{FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, RECEIVERS, Shader};
+use crate::shader::Shader;
 use crate::technique::TechniqueInfo;
 
-const SHADER: Shader = Shader {
-    name: "shadow-map",
-    parts: &[FULLSCREEN, RECEIVERS, MAP_LOOKUP, MAP_VISIBILITY, include_str!("shadow_map.wgsl")],
-    layouts: LOOKUP_LAYOUTS,
-};
+const SHADER: Shader = Shader::new("shadow-map", include_str!("shadow_map.wgsl"));
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {

@@ -1,3 +1,4 @@
+// needs: map_visibility
 // One compare with the nearest texel.
 
 fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {

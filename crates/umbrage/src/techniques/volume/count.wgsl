@@ -1,3 +1,4 @@
+// needs: extrude
 // Counts surfaces of shadow volumes in floats: each pixel adds up how many volumes a ray enters and leaves.
 
 // From infinity, behind what is seen, instead of from the eye.

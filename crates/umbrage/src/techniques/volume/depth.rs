@@ -2,7 +2,7 @@
 
 use super::DEPTH_SHADER;
 use super::situation::is_parallel;
-use crate::depth_maps::Eye;
+use crate::receivers::Eye;
 use crate::fullscreen::{UNIFORM, bind, layout};
 use crate::shader::shader_struct;
 use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View};

@@ -1,3 +1,4 @@
+// needs: fullscreen, receivers
 // The receivers' depth, to be compared with where their own buffer can't be used.
 
 struct DepthBounds {

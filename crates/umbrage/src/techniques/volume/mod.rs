@@ -13,41 +13,25 @@ mod situation;
 mod technique;
 mod views;
 
-use crate::depth_maps::Eye;
 use crate::params::{Param, ParamKind};
-use crate::shader::{FULLSCREEN, INSPECT, RECEIVERS, Shader};
-use crate::silhouettes::{EXTRUDE_LAYOUTS, EXTRUDE_PARTS, FIND_SHADER};
+use crate::shader::Shader;
+use crate::silhouettes::FIND_SHADER;
 use crate::technique::TechniqueInfo;
 use umbrage_core::LightKinds;
 
-const COUNT_SHADER: Shader = Shader {
-    name: "volumes",
-    parts: &[EXTRUDE_PARTS[0], EXTRUDE_PARTS[1], EXTRUDE_PARTS[2], include_str!("count.wgsl")],
-    layouts: EXTRUDE_LAYOUTS,
-};
+const COUNT_SHADER: Shader = Shader::new("volumes", include_str!("count.wgsl"));
 
-const RESOLVE_SHADER: Shader =
-    Shader { name: "volume visibility", parts: &[FULLSCREEN, include_str!("resolve.wgsl")], layouts: &[] };
+const RESOLVE_SHADER: Shader = Shader::new("volume visibility", include_str!("resolve.wgsl"));
 
-const DEPTH_SHADER: Shader = Shader {
-    name: "volume depth",
-    parts: &[FULLSCREEN, RECEIVERS, include_str!("depth.wgsl")],
-    layouts: &[Eye::LAYOUT, depth::DepthBounds::LAYOUT],
-};
+const DEPTH_SHADER: Shader =
+    Shader::new("volume depth", include_str!("depth.wgsl")).with_layouts(&[depth::DepthBounds::LAYOUT]);
 
-const VIEWS_SHADER: Shader = Shader {
-    name: "views of volumes",
-    parts: &[EXTRUDE_PARTS[0], EXTRUDE_PARTS[1], EXTRUDE_PARTS[2], include_str!("views.wgsl")],
-    layouts: EXTRUDE_LAYOUTS,
-};
+const VIEWS_SHADER: Shader = Shader::new("views of volumes", include_str!("views.wgsl"));
 
-const VIEW_BASE_SHADER: Shader = Shader {
-    name: "views of volumes, base",
-    parts: &[FULLSCREEN, RECEIVERS, INSPECT, include_str!("view_base.wgsl")],
-    layouts: &[Eye::LAYOUT, views::ViewBase::LAYOUT],
-};
+const VIEW_BASE_SHADER: Shader = Shader::new("views of volumes, base", include_str!("view_base.wgsl"))
+    .with_layouts(&[views::ViewBase::LAYOUT]);
 
-const PLAN_SHADER: Shader = Shader { name: "plan of casters", parts: &[include_str!("plan.wgsl")], layouts: &[] };
+const PLAN_SHADER: Shader = Shader::new("plan of casters", include_str!("plan.wgsl"));
 
 const PARAMS: &[Param] = &[
     Param {

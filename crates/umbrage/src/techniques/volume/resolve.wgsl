@@ -1,3 +1,4 @@
+// needs: fullscreen
 // From counts to visibility.
 
 @group(0) @binding(0) var counts: texture_2d<f32>;

@@ -1,4 +1,5 @@
-// What pictures of volumes are drawn over, and numbers as colours. After `inspect.wgsl`.
+// needs: fullscreen, inspect
+// What pictures of volumes are drawn over, and numbers as colours.
 
 struct ViewBase {
     eye: Eye,

@@ -5,7 +5,7 @@ use super::VIEWS_SHADER;
 use super::plan::Plan;
 use super::select::Selection;
 use crate::casters::Edges;
-use crate::depth_maps::Eye;
+use crate::receivers::Eye;
 use crate::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout, target_texture};
 use crate::shader::shader_struct;
 use crate::silhouettes::{Part, Silhouettes};

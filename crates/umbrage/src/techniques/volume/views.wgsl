@@ -1,4 +1,5 @@
-// Pictures of volumes. After `extrude.wgsl`.
+// needs: extrude
+// Pictures of volumes.
 
 // Half the width of a line, in normalised device coordinates.
 override LINE_X: f32 = 0.001;

@@ -3,59 +3,26 @@
 //! Sources: FE 2.3.1; Donnelly and Lauritzen, "Variance Shadow Maps", 2006.
 
 use crate::depth_maps::{
-    BIAS, CACHE, FACES, FOCUS, LAYER_NAMES, LIGHTS, LOOKUP_LAYOUTS, MapTechnique, OMNI, SHADERS, SIZE,
+    BIAS, CACHE, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE,
 };
-use crate::moment_maps::{Coding, FORMAT, MIPS, MomentStage, PASS_LAYOUTS, RADIUS, Recipe};
+use crate::moment_maps::{Coding, FORMAT, MIPS, MomentStage, RADIUS, Recipe};
 use crate::params::{Param, ParamKind};
-use crate::shader::{
-    FULLSCREEN, MAP_LOOKUP, MAP_VISIBILITY, MOMENTS_DEPTH, MOMENTS_FLOAT, MOMENTS_LOOKUP, MOMENTS_MEAN, MOMENTS_PASSES,
-    MOMENTS_UNORM, RECEIVERS, Shader,
-};
+use crate::shader::{Module, Shader};
 use crate::technique::TechniqueInfo;
 
-const MOMENTS: &str = include_str!("moments.wgsl");
-const VSM: &str = include_str!("vsm.wgsl");
+const MODULES: &[Module] = &[
+    Module { name: "moments", source: include_str!("moments.wgsl") },
+    Module { name: "vsm", source: include_str!("vsm.wgsl") },
+];
 
-const PASSES: Shader = Shader {
-    name: "vsm moments",
-    parts: &[FULLSCREEN, MOMENTS_DEPTH, MOMENTS_FLOAT, MOMENTS_MEAN, MOMENTS, MOMENTS_PASSES],
-    layouts: PASS_LAYOUTS,
-};
-const PASSES_16: Shader = Shader {
-    name: "vsm moments, 16 bits",
-    parts: &[FULLSCREEN, MOMENTS_DEPTH, MOMENTS_UNORM, MOMENTS_MEAN, MOMENTS, MOMENTS_PASSES],
-    layouts: PASS_LAYOUTS,
-};
-const LOOKUP: Shader = Shader {
-    name: "vsm",
-    parts: &[
-        FULLSCREEN,
-        RECEIVERS,
-        MAP_LOOKUP,
-        MAP_VISIBILITY,
-        MOMENTS_DEPTH,
-        MOMENTS_FLOAT,
-        MOMENTS,
-        MOMENTS_LOOKUP,
-        VSM,
-    ],
-    layouts: LOOKUP_LAYOUTS,
-};
-const LOOKUP_16: Shader = Shader {
-    name: "vsm, 16 bits",
-    parts: &[
-        FULLSCREEN,
-        RECEIVERS,
-        MAP_LOOKUP,
-        MAP_VISIBILITY,
-        MOMENTS_DEPTH,
-        MOMENTS_UNORM,
-        MOMENTS,
-        MOMENTS_LOOKUP,
-        VSM,
-    ],
-    layouts: LOOKUP_LAYOUTS,
-};
+const fn shader(name: &'static str, needs: &'static str) -> Shader {
+    Shader::new(name, needs).with_modules(MODULES)
+}
+
+const PASSES: Shader = shader("vsm moments", "// needs: moments_passes, moments_float, moments");
+const PASSES_16: Shader = shader("vsm moments, 16 bits", "// needs: moments_passes, moments_unorm, moments");
+const LOOKUP: Shader = shader("vsm", "// needs: vsm, moments_float");
+const LOOKUP_16: Shader = shader("vsm, 16 bits", "// needs: vsm, moments_unorm");
 
 const BLEEDING: Param = Param {
     name: "bleeding",

@@ -1,3 +1,4 @@
+// needs: moments_mean
 // Depth and its square.
 
 fn moments_of(depth: f32) -> vec4f {

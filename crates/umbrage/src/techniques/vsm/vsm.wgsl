@@ -1,3 +1,4 @@
+// needs: map_visibility, moments_lookup, moments
 // Variance shadow maps (Donnelly and Lauritzen 2006).
 
 // What rounding may make of none.

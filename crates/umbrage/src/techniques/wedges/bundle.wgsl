@@ -1,3 +1,4 @@
+// needs: area_light, record, body
 // Wedges that lie close together are drawn as one: see `wedge::Wedge::around` in the core crate.
 
 @group(0) @binding(0) var<uniform> light: AreaLight;

@@ -1,3 +1,4 @@
+// needs: instances, edges, area_light, record
 // Makes the caps of casters that are counted from infinity: their triangles, and where the triangles' shadows end.
 
 struct CapChunk {

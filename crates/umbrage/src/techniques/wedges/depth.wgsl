@@ -1,3 +1,4 @@
+// needs: fullscreen, receivers, area_light
 // The depth of what places in a smaller buffer stand for.
 
 @group(1) @binding(0) var<uniform> light: AreaLight;

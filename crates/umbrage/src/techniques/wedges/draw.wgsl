@@ -1,3 +1,4 @@
+// needs: receivers, area_light, coverage, cell, record
 // Adds up how much of the light is covered: hard shadows by the sides of volumes, then what every edge's wedge adds to them.
 
 @group(1) @binding(0) var<uniform> light: AreaLight;

@@ -1,3 +1,4 @@
+// needs: resolve, term_analytic
 // Of the square between −1 and 1 the share where x a + y b + c < 0.
 fn beyond_on_square(line: vec3f) -> f32 {
     let a = max(max(abs(line.x), abs(line.y)), 1e-30);

@@ -1,3 +1,4 @@
+// needs: instances, edges, area_light, record, body
 // Builds the wedge of every silhouette edge that was listed: see `wedge` in the core crate.
 
 @group(0) @binding(1) var<storage, read> list: array<u32>;

@@ -14,66 +14,43 @@ mod targets;
 mod technique;
 mod views;
 
-use crate::area_light::{AREA_LIGHT as LIGHT, Anchor, AreaLight};
-use crate::casters::{EDGES_WGSL, INSTANCES_WGSL, Instance};
-use crate::depth_maps::Eye;
 use crate::params::{Param, ParamKind};
-use crate::shader::{FULLSCREEN, RECEIVERS, Shader};
-use crate::silhouettes::{Caster, FIND_SHADER};
+use crate::shader::{Module, Shader};
+use crate::silhouettes::FIND_SHADER;
 use crate::technique::TechniqueInfo;
 use umbrage_core::LightKinds;
 
-const COVERAGE: &str = include_str!("coverage.wgsl");
-const RECORD: &str = include_str!("record.wgsl");
-const BODY: &str = include_str!("body.wgsl");
-const CELL: &str = include_str!("cell.wgsl");
+/// What the shaders of this folder need of each other.
+const MODULES: &[Module] = &[
+    Module { name: "coverage", source: include_str!("coverage.wgsl") },
+    Module { name: "record", source: include_str!("record.wgsl") },
+    Module { name: "body", source: include_str!("body.wgsl") },
+    Module { name: "cell", source: include_str!("cell.wgsl") },
+    Module { name: "draw", source: include_str!("draw.wgsl") },
+    Module { name: "resolve", source: include_str!("resolve.wgsl") },
+    Module { name: "term_analytic", source: include_str!("term_analytic.wgsl") },
+    Module { name: "term_table", source: include_str!("term_table.wgsl") },
+    Module { name: "term_picture", source: include_str!("term_picture.wgsl") },
+];
 
-const MAKE_SHADER: Shader = Shader {
-    name: "make wedges",
-    parts: &[INSTANCES_WGSL, EDGES_WGSL, LIGHT, RECORD, BODY, include_str!("make.wgsl")],
-    layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
-};
+const fn shader(name: &'static str, source: &'static str) -> Shader {
+    Shader::new(name, source).with_modules(MODULES)
+}
 
-const BUNDLE_SHADER: Shader = Shader {
-    name: "bundle wedges",
-    parts: &[LIGHT, RECORD, BODY, include_str!("bundle.wgsl")],
-    layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT],
-};
+const MAKE_SHADER: Shader = shader("make wedges", include_str!("make.wgsl"));
 
-const CAPS_SHADER: Shader = Shader {
-    name: "make caps",
-    parts: &[INSTANCES_WGSL, EDGES_WGSL, LIGHT, RECORD, include_str!("caps.wgsl")],
-    layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT, Caster::LAYOUT, Instance::LAYOUT],
-};
+const BUNDLE_SHADER: Shader = shader("bundle wedges", include_str!("bundle.wgsl"));
 
-const DRAW_SHADER: Shader = Shader {
-    name: "wedges",
-    parts: &[RECEIVERS, LIGHT, COVERAGE, CELL, RECORD, include_str!("draw.wgsl"), include_str!("term_analytic.wgsl")],
-    layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT, Eye::LAYOUT],
-};
+const CAPS_SHADER: Shader = shader("make caps", include_str!("caps.wgsl"));
 
-const RESOLVE_SHADER: Shader = Shader {
-    name: "wedge visibility",
-    parts: &[
-        FULLSCREEN,
-        RECEIVERS,
-        LIGHT,
-        COVERAGE,
-        include_str!("term_analytic.wgsl"),
-        include_str!("resolve.wgsl"),
-        include_str!("horizon_analytic.wgsl"),
-    ],
-    layouts: &[AreaLight::LAYOUT, Eye::LAYOUT],
-};
+const DRAW_SHADER: Shader = shader("wedges", "// needs: draw, term_analytic");
+
+const RESOLVE_SHADER: Shader = shader("wedge visibility", include_str!("horizon_analytic.wgsl"));
 
 /// What a loop or a caster that was drawn apart comes to.
-const APART_SHADER: Shader = Shader { name: "a loop's shares", parts: &[include_str!("apart.wgsl")], layouts: &[] };
+const APART_SHADER: Shader = Shader::new("a loop's shares", include_str!("apart.wgsl"));
 
-const DEPTH_SHADER: Shader = Shader {
-    name: "depth of wedges",
-    parts: &[FULLSCREEN, RECEIVERS, LIGHT, include_str!("depth.wgsl")],
-    layouts: &[AreaLight::LAYOUT, Eye::LAYOUT],
-};
+const DEPTH_SHADER: Shader = shader("depth of wedges", include_str!("depth.wgsl"));
 
 const PARAMS: &[Param] = &[
     Param {

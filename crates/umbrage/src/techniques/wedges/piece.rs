@@ -19,7 +19,7 @@ use super::targets::SINGLES;
 use super::targets::Target;
 use crate::area_light::{Form, Frame, ROUNDING};
 use crate::casters::Edges;
-use crate::depth_maps::Eye;
+use crate::receivers::Eye;
 use crate::fullscreen::attachment;
 use crate::silhouettes::{Extrude, Part, Silhouettes, Style};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};

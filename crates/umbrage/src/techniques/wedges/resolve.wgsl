@@ -1,3 +1,4 @@
+// needs: fullscreen, receivers, area_light, coverage
 // From covered shares to visibility.
 
 @group(1) @binding(0) var<uniform> light: AreaLight;

@@ -1,16 +1,12 @@
 //! Shares of a light that shaders look up: those of a disc, where tables are asked for, and those of pictures.
 
-use super::CELL;
-use super::COVERAGE;
 use super::DRAW_SHADER;
-use super::LIGHT;
-use super::RECORD;
 use super::RESOLVE_SHADER;
-use crate::area_light::{Anchor, AreaLight, Face, Form};
-use crate::depth_maps::Eye;
+use super::shader;
+use crate::area_light::{Face, Form};
 use crate::fullscreen::{STORAGE, bind, layout};
 use crate::gpu::Gpu;
-use crate::shader::{FULLSCREEN, RECEIVERS, Shader};
+use crate::shader::Shader;
 use crate::view::View;
 use half::f16;
 use umbrage_core::coverage::{SphereTable, TexturedTable};
@@ -20,33 +16,16 @@ use umbrage_core::{LightShape, Texture};
 use wgpu::util::DeviceExt;
 
 /// `DRAW_SHADER` with [`Term::Table`].
-pub(super) const TABLE_SHADER: Shader = Shader {
-    name: "wedges by table",
-    parts: &[RECEIVERS, LIGHT, COVERAGE, CELL, RECORD, include_str!("draw.wgsl"), include_str!("term_table.wgsl")],
-    layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT, Eye::LAYOUT],
-};
+pub(super) const TABLE_SHADER: Shader =
+    shader("wedges by table", "// needs: draw, term_table");
 
 /// `DRAW_SHADER` with [`Term::Picture`].
-pub(super) const PICTURE_SHADER: Shader = Shader {
-    name: "wedges of a picture",
-    parts: &[RECEIVERS, LIGHT, COVERAGE, CELL, RECORD, include_str!("draw.wgsl"), include_str!("term_picture.wgsl")],
-    layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT, Eye::LAYOUT],
-};
+pub(super) const PICTURE_SHADER: Shader =
+    shader("wedges of a picture", "// needs: draw, term_picture");
 
 /// `RESOLVE_SHADER` with [`Term::Picture`].
-pub(super) const RESOLVE_PICTURE_SHADER: Shader = Shader {
-    name: "wedge visibility of a picture",
-    parts: &[
-        FULLSCREEN,
-        RECEIVERS,
-        LIGHT,
-        COVERAGE,
-        include_str!("term_picture.wgsl"),
-        include_str!("resolve.wgsl"),
-        include_str!("horizon_picture.wgsl"),
-    ],
-    layouts: &[AreaLight::LAYOUT, Eye::LAYOUT],
-};
+pub(super) const RESOLVE_PICTURE_SHADER: Shader =
+    shader("wedge visibility of a picture", include_str!("horizon_picture.wgsl"));
 
 /// Values along each axis of a disc's table (PX 4.2).
 const DISC_SIDE: usize = 32;

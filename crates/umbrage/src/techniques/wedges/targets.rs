@@ -3,7 +3,7 @@
 use super::pipelines::Pipelines;
 use super::select::CHUNK;
 use crate::area_light::{AreaLight, scaled};
-use crate::depth_maps::Eye;
+use crate::receivers::Eye;
 use crate::fullscreen::{bind, target_texture};
 use crate::{error::Error, gpu::Gpu, receivers::Receivers, view::View};
 

@@ -22,7 +22,7 @@ use super::views::Drawn;
 use super::views::Views;
 use crate::area_light::{Face, Form, Frame, ROUNDING, is_on_a_caster};
 use crate::casters::Edges;
-use crate::depth_maps::Eye;
+use crate::receivers::Eye;
 use crate::fullscreen::bind;
 use crate::params::Settings;
 use crate::silhouettes::Part;

@@ -1,3 +1,4 @@
+// needs: coverage
 fn disc_term(c: Across, inside: bool) -> f32 {
     return disc_analytic(c, inside);
 }

@@ -1,3 +1,4 @@
+// needs: coverage
 // Shares of a square that shows a picture by a look-up over both ends of a chord (SG "Precomputed 4D textures"), see `TexturedTable` in
 // the core crate.
 

@@ -1,4 +1,5 @@
-// Fragments of bodies for pictures of wedges. After `draw.wgsl`, whose bodies they share.
+// needs: draw, term_analytic
+// Fragments of bodies for pictures of wedges. They share the bodies of `draw.wgsl`.
 
 // Fronts in the first channel, backs in the second.
 @fragment

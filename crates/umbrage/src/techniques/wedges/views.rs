@@ -1,17 +1,13 @@
 //! Pictures of what happens inside: bodies, penumbras, overdraw, and what wedges add to the hard shadow.
 
-use super::CELL;
-use super::COVERAGE;
-use super::LIGHT;
-use super::RECORD;
 use super::pipelines::Key;
 use super::pipelines::Resolve;
 use super::pipelines::compare;
+use super::shader;
 use super::targets::{BUNDLES, Buffers, GROUP, SINGLES, lent_depth};
-use crate::area_light::{Anchor, AreaLight};
-use crate::depth_maps::Eye;
+use crate::receivers::Eye;
 use crate::fullscreen::{FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout, target_texture, texture};
-use crate::shader::{FULLSCREEN, INSPECT, RECEIVERS, Shader};
+use crate::shader::Shader;
 use crate::technique::DebugView;
 use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View, visibility::VisibilityTarget};
 
@@ -19,27 +15,11 @@ use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View, visibili
 pub(super) const NAMES: &[&str] = &["wireframe", "wedges", "penumbra", "overdraw", "fragments", "correction", "pieces"];
 
 /// Colours of every pixel's numbers; an entry for each name.
-pub(super) const VIEWS_SHADER: Shader = Shader {
-    name: "views of wedges",
-    parts: &[FULLSCREEN, RECEIVERS, INSPECT, include_str!("views.wgsl")],
-    layouts: &[Eye::LAYOUT],
-};
+pub(super) const VIEWS_SHADER: Shader = Shader::new("views of wedges", include_str!("views.wgsl"));
 
 /// Bodies of wedges as numbers. What an edge crosses goes by the formula whatever is asked for, since it is the same.
-pub(super) const BODIES_SHADER: Shader = Shader {
-    name: "bodies of wedges",
-    parts: &[
-        RECEIVERS,
-        LIGHT,
-        COVERAGE,
-        CELL,
-        RECORD,
-        include_str!("draw.wgsl"),
-        include_str!("term_analytic.wgsl"),
-        include_str!("view_bodies.wgsl"),
-    ],
-    layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT, Eye::LAYOUT],
-};
+pub(super) const BODIES_SHADER: Shader =
+    shader("bodies of wedges", include_str!("view_bodies.wgsl"));
 
 const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 

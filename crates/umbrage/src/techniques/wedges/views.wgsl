@@ -1,4 +1,5 @@
-// Pictures of wedges: numbers of each pixel as colours. After `inspect.wgsl`.
+// needs: fullscreen, inspect
+// Pictures of wedges: numbers of each pixel as colours.
 
 @group(1) @binding(0) var<uniform> eye: Eye;
 @group(1) @binding(1) var numbers: texture_2d<f32>;

@@ -1,0 +1,63 @@
+// needs: casters, materials, map_storage
+// Renders casters into a depth map seen from the light.
+
+struct MapView {
+    clip_from_world: mat4x4f,
+    // Of a paraboloid: scale and offset from its plane to clip space, and from texels to the plane.
+    clip_from_plane: vec4f,
+    plane_from_texel: vec4f,
+    // How much nearer stored depths may be and still count as the same: relative, and absolute.
+    same: vec2f,
+    // Depth that linear maps store as 0.
+    farthest: f32,
+    // Distance of depth 1, metres.
+    near: f32,
+}
+
+@group(0) @binding(0) var<uniform> map_view: MapView;
+
+struct Masked {
+    @invariant @builtin(position) position: vec4f,
+    @location(0) uv: vec2f,
+    @location(1) @interpolate(flat) material: u32,
+}
+
+fn map_position(instance: u32, position: vec3f) -> vec4f {
+    return map_view.clip_from_world * vec4f(world_from_mesh(instance, position), 1.0);
+}
+
+@vertex
+fn opaque(@location(0) position: vec3f, @location(1) instance: u32) -> @invariant @builtin(position) vec4f {
+    return map_position(instance, position);
+}
+
+@vertex
+fn masked(
+    @location(0) position: vec3f,
+    @location(1) instance: u32,
+    @location(2) normal: vec3f,
+    @location(3) uv: vec2f,
+) -> Masked {
+    return Masked(map_position(instance, position), uv, instances[instance].material);
+}
+
+@fragment
+fn cut_out(in: Masked) {
+    if is_cut_out(in.material, base_color(in.material, in.uv).a) {
+        discard;
+    }
+}
+
+// Where maps are linear: `position.z` is near / distance.
+@fragment
+fn written(@builtin(position) position: vec4f) -> @builtin(frag_depth) f32 {
+    return stored_of(position.z, map_view.farthest);
+}
+
+@fragment
+fn written_cut_out(in: Masked) -> @builtin(frag_depth) f32 {
+    if is_cut_out(in.material, base_color(in.material, in.uv).a) {
+        discard;
+    }
+    return stored_of(in.position.z, map_view.farthest);
+}

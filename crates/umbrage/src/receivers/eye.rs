@@ -1,0 +1,34 @@
+//! The camera as shaders need it that start from visible surfaces.
+
+use crate::{shader::shader_struct, view::View};
+use umbrage_core::glam::DVec4;
+
+shader_struct! {
+    /// How to get from a pixel to the surface it shows, see `receivers.wgsl`.
+    pub struct Eye {
+        /// The camera's normalised device coordinates to space relative to the eye, homogeneous.
+        eye_from_ndc: [[f32; 4]; 4],
+        /// What a pixel is across and down.
+        ndc_from_pixel: [f32; 2],
+        /// What the depth buffer holds where nothing was drawn.
+        background_depth: f32,
+        /// The largest |x| + |y| + |z| of `eye_from_ndc` in the picture, before the division by w.
+        reach: f32,
+    }
+}
+
+impl Eye {
+    /// For the camera and size of `view`.
+    pub fn new(view: &View<'_>) -> Self {
+        let (width, height) = view.receivers.size;
+        let eye_from_ndc = view.clip_from_eye().inverse();
+        let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
+        let ends = corners.into_iter().flat_map(|(x, y)| [0.0, 1.0].map(|z| eye_from_ndc * DVec4::new(x, y, z, 1.0)));
+        Self {
+            reach: ends.map(|p| p.truncate().abs().element_sum()).fold(0.0, f64::max) as f32,
+            eye_from_ndc: eye_from_ndc.as_mat4().to_cols_array_2d(),
+            ndc_from_pixel: [2.0 / width as f32, -2.0 / height as f32],
+            background_depth: view.camera.background_depth(),
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! What shadows fall on: the depth buffer of the view, and normals where the host has them.
+
+mod eye;
+
+use crate::fullscreen::{self, bind};
+use crate::gpu::Gpu;
+use crate::shader::Shared;
+pub use eye::Eye;
+
+/// What the host has to agree on with `receivers.wgsl`.
+pub(crate) const SHARED: Shared = Shared { module: "receivers", layouts: &[Eye::LAYOUT], constants: &[] };
+
+/// Depth (and normals) of the visible surfaces, made once per size.
+///
+/// Depth has 24 bits or floats and one sample a pixel; of a format with stencil, the view is of the depth alone. All
+/// surfaces in it that shadows should fall on have to be among the [`crate::Casters`], those that throw none too: maps are
+/// fitted to them. Normals are `R32Uint`: the geometric normal in world space,
+/// turned to the eye, packed by the function in [`crate::wgsl::PACK_NORMAL`]. Without them normals come from the depth itself, which
+/// costs a little and is less exact at the edges of surfaces.
+#[derive(Clone, Debug)]
+pub struct Receivers {
+    /// Pixels across and down.
+    pub size: (u32, u32),
+    pub(crate) has_normals: bool,
+    pub(crate) bind_group: wgpu::BindGroup,
+    pub(crate) depth: wgpu::TextureView,
+    pub(crate) stencil: Option<wgpu::TextureView>,
+}
+
+impl Receivers {
+    /// Wraps a host's views. `normal` may be `None`.
+    pub fn new(gpu: &Gpu, depth: &wgpu::TextureView, normal: Option<&wgpu::TextureView>, size: (u32, u32)) -> Self {
+        let none;
+        let normal_view = match normal {
+            Some(view) => view,
+            None => {
+                none = placeholder(gpu);
+                &none
+            }
+        };
+        let views = [depth, normal_view].map(wgpu::BindingResource::TextureView);
+        let bind_group = bind(gpu, "receivers", &Self::layout(gpu), &views);
+        Self { size, has_normals: normal.is_some(), bind_group, depth: depth.clone(), stencil: None }
+    }
+
+    /// Lends the depth buffer's stencil: `view` is of the same texture with both aspects. Techniques that count in the stencil
+    /// then need no copy of the depth; what was in the stencil is lost.
+    pub fn with_stencil(mut self, view: &wgpu::TextureView) -> Self {
+        self.stencil = Some(view.clone());
+        self
+    }
+
+    /// Depth and normals, as the module `receivers` declares them in group 0.
+    pub fn bind_group(&self) -> &wgpu::BindGroup {
+        &self.bind_group
+    }
+
+    /// Layout of [`Receivers::bind_group`].
+    pub fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+        let bindings = [wgpu::TextureSampleType::Depth, wgpu::TextureSampleType::Uint].map(fullscreen::texture);
+        let stages = wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE;
+        fullscreen::layout(gpu, "receivers", stages, &bindings)
+    }
+}
+
+fn placeholder(gpu: &Gpu) -> wgpu::TextureView {
+    let texture = fullscreen::target_texture(gpu, "no normals", (1, 1), 1, wgpu::TextureFormat::R32Uint);
+    texture.create_view(&Default::default())
+}

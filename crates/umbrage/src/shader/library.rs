@@ -1,0 +1,28 @@
+//! The modules of WGSL that any shader can need. Each lies beside the code that owns it.
+
+use super::Module;
+
+macro_rules! modules {
+    ($($folder:literal: $($name:ident)*;)*) => {
+        &[$($(Module {
+            name: stringify!($name),
+            source: include_str!(concat!("../", $folder, "/", stringify!($name), ".wgsl")),
+        },)*)*]
+    };
+}
+
+pub(super) const LIBRARY: &[Module] = modules! {
+    "wgsl": fullscreen inspect;
+    "receivers": pack_normal receivers;
+    "casters": instances casters materials edges poses;
+    "silhouettes": extrude;
+    "area_light": area_light;
+    "depth_maps/draw": map_storage map_depth map_paraboloid;
+    "depth_maps/lookup": map_layers map_lookup map_visibility map_quick;
+    "depth_maps/stages": light_kernel map_taps map_cells soft_taps;
+    "moment_maps": moments_depth moments_float moments_unorm moments_mean moments_passes moments_share moments_lookup
+        moments_soft;
+};
+
+/// How a host packs the normals of [`crate::Receivers`]: WGSL with `pack_normal(normal, casts) -> u32`.
+pub const PACK_NORMAL: &str = include_str!("../receivers/pack_normal.wgsl");
