@@ -1,6 +1,7 @@
 //! Depth, normals and materials of the visible surfaces; ambient and emitted light at once.
 
-use umbrage::fullscreen::{UNIFORM, attachment, bind, layout, target_texture};
+use crate::targets::{GBuffer, PACKED, WIDE, depth_format};
+use umbrage::fullscreen::{UNIFORM, attachment, bind, layout};
 use umbrage::{Casters, Gpu, Passes, SeenCasters, Shader, shader_struct};
 use umbrage_core::{CameraView, glam::DMat4};
 
@@ -18,63 +19,34 @@ shader_struct! {
     }
 }
 
-const PACKED: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
-const WIDE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
-
-/// The targets and what draws them.
-pub(super) struct GBuffer {
-    pub(super) depth: wgpu::Texture,
-    /// Of the depth alone.
-    pub(super) depth_view: wgpu::TextureView,
-    /// Of depth and stencil, for techniques that count in it; `None` where the adapter has no such format.
-    pub(super) stencil_view: Option<wgpu::TextureView>,
-    /// Geometric normal turned to the eye, packed.
-    pub(super) normal: wgpu::Texture,
-    pub(super) normal_view: wgpu::TextureView,
-    /// Shading normal, and shininess: negative where no shadow falls.
-    pub(super) shading_view: wgpu::TextureView,
-    /// Base colour and specular strength.
-    pub(super) color_view: wgpu::TextureView,
-    /// Light that leaves the surface; every light adds to it.
-    pub(super) radiance_view: wgpu::TextureView,
+/// Draws the G-buffer.
+pub(crate) struct GBufferPass {
+    /// For opaque surfaces and for those with an alpha mask.
     pipelines: [wgpu::RenderPipeline; 2],
     seen: SeenCasters,
     uniforms: wgpu::Buffer,
     bind_group: wgpu::BindGroup,
 }
 
-impl GBuffer {
-    pub(super) fn new(gpu: &Gpu, width: u32, height: u32) -> Self {
-        let texture = |label, format| target_texture(gpu, label, (width, height), 1, format);
-        let depth = texture("depth", depth_format(gpu));
-        let depth_view = depth
-            .create_view(&wgpu::TextureViewDescriptor { aspect: wgpu::TextureAspect::DepthOnly, ..Default::default() });
-        let normal = texture("geometric normal", PACKED);
-        let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
+impl GBufferPass {
+    pub fn new(gpu: &Gpu) -> Self {
         let view_layout = layout(gpu, "camera", wgpu::ShaderStages::VERTEX_FRAGMENT, &[UNIFORM]);
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniforms = gpu.buffer("camera", &[GBufferView::default()], usage);
-        let bind_group = bind(gpu, "camera", &view_layout, &[uniforms.as_entire_binding()]);
         Self {
-            stencil_view: depth.format().has_stencil_aspect().then(|| view(&depth)),
-            depth_view,
-            depth,
-            normal_view: view(&normal),
-            normal,
-            shading_view: view(&texture("shading normal", WIDE)),
-            color_view: view(&texture("base colour", WIDE)),
-            radiance_view: view(&texture("radiance", WIDE)),
             pipelines: ["opaque", "masked"].map(|entry| pipeline(gpu, &view_layout, entry)),
             seen: SeenCasters::default(),
+            bind_group: bind(gpu, "camera", &view_layout, &[uniforms.as_entire_binding()]),
             uniforms,
-            bind_group,
         }
     }
 
-    pub(super) fn record(
+    /// Draws what `camera` sees of the casters, with ambient and emitted light.
+    pub fn record(
         &mut self,
         gpu: &Gpu,
         passes: &mut Passes<'_>,
+        target: &GBuffer,
         casters: &Casters,
         camera: &CameraView,
         ambient: [f32; 3],
@@ -90,24 +62,15 @@ impl GBuffer {
         passes.upload(&self.uniforms, bytemuck::bytes_of(&data));
         let clear = |view| attachment(view, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));
         let depth = wgpu::RenderPassDepthStencilAttachment {
-            view: self.stencil_view.as_ref().unwrap_or(&self.depth_view),
+            view: target.stencil_view.as_ref().unwrap_or(&target.depth_view),
             depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
             stencil_ops: None,
         };
-        let targets = [&self.normal_view, &self.shading_view, &self.color_view, &self.radiance_view].map(clear);
+        let targets = [&target.normal_view, &target.shading_view, &target.color_view, &target.radiance_view].map(clear);
         let mut pass = passes.render("gbuffer", &targets, Some(depth));
         pass.set_bind_group(0, &self.bind_group, &[]);
         let [opaque, masked] = &self.pipelines;
         self.seen.draw(&mut pass, casters, opaque, masked);
-    }
-}
-
-/// Floats, with a stencil where there can be one.
-fn depth_format(gpu: &Gpu) -> wgpu::TextureFormat {
-    if gpu.has(wgpu::Features::DEPTH32FLOAT_STENCIL8) {
-        wgpu::TextureFormat::Depth32FloatStencil8
-    } else {
-        wgpu::TextureFormat::Depth32Float
     }
 }
 

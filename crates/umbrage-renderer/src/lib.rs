@@ -12,21 +12,24 @@
 //! # Ok(()) }
 //! ```
 
+mod change;
 mod gbuffer;
+mod lit;
 mod overlay;
+mod read_back;
 mod shading;
+mod targets;
 mod tonemap;
 
-use gbuffer::GBuffer;
+use gbuffer::GBufferPass;
+use lit::{Lit, Visible};
 use overlay::Overlay;
 use shading::Shading;
 use std::time::{Duration, Instant};
+use targets::{PICTURE, Targets};
 use tonemap::ToneMap;
-use umbrage::{
-    Casters, DebugView, Error, Gpu, Owner, PassTime, Passes, Receivers, Recorder, Shader, Stats, Technique, View,
-    VisibilityTarget, read,
-};
-use umbrage_core::{Camera, CameraView, Image, Light, LightShape, Scene, Texture};
+use umbrage::{Casters, Error, Gpu, Owner, PassTime, Passes, Recorder, Shader, Stats, Technique};
+use umbrage_core::{Camera, Light, LightShape, Scene, Texture};
 
 /// Every shader of the renderer, for tests.
 pub const SHADERS: &[Shader] = &[gbuffer::SHADER, overlay::SHADER, shading::SHADER, tonemap::SHADER];
@@ -43,10 +46,10 @@ pub struct LightPass {
 pub struct Renderer {
     gpu: Gpu,
     casters: Casters,
-    gbuffer: GBuffer,
-    receivers: Receivers,
+    gbuffer: GBufferPass,
     shading: Shading,
     tonemap: ToneMap,
+    targets: Targets,
     recorder: Recorder,
     lights: Vec<Lit>,
     /// All lights as the scene has them.
@@ -58,30 +61,6 @@ pub struct Renderer {
     overlay: Option<Overlay>,
 }
 
-/// A light, its technique and what came out.
-struct Lit {
-    number: usize,
-    light: Light,
-    technique: Box<dyn Technique>,
-    visibility: VisibilityTarget,
-    slot: shading::Slot,
-}
-
-/// What the views of all lights of a frame share.
-struct Visible<'a> {
-    camera: CameraView,
-    receivers: &'a Receivers,
-    casters: &'a Casters,
-    textures: &'a [Texture],
-}
-
-impl<'a> Visible<'a> {
-    fn view(&self, light: &'a Light) -> View<'a> {
-        let Self { camera, receivers, casters, textures } = *self;
-        View { camera, receivers, casters, light, textures }
-    }
-}
-
 impl Renderer {
     /// Uploads `scene` and makes targets of `width` × `height`. Lights without a pass do not shine; the same light may
     /// come once only.
@@ -91,31 +70,22 @@ impl Renderer {
     pub fn new(gpu: &Gpu, scene: &Scene, width: u32, height: u32, lights: Vec<LightPass>) -> Result<Self, Error> {
         gpu.check_size("the picture", width, height)?;
         let casters = Casters::new(gpu, scene)?;
-        let gbuffer = GBuffer::new(gpu, width, height);
-        let mut receivers = Receivers::new(gpu, &gbuffer.depth_view, Some(&gbuffer.normal_view), (width, height));
-        if let Some(view) = &gbuffer.stencil_view {
-            receivers = receivers.with_stencil(view);
-        }
-        let shading = Shading::new(gpu, &gbuffer);
-        let tonemap = ToneMap::new(gpu, &gbuffer, width, height);
-        let textured = scene.lights.iter().any(|l| matches!(l.shape, LightShape::Rect { texture: Some(_), .. }));
+        let (shading, tonemap) = (Shading::new(gpu), ToneMap::new(gpu));
         for (i, pass) in lights.iter().enumerate() {
             if lights[..i].iter().any(|other| other.light == pass.light) {
                 return Err(twice(pass.light));
             }
         }
-        let lights = lights.into_iter().map(|pass| {
-            let light = light_of(&scene.lights, pass.light)?;
-            let visibility = VisibilityTarget::new(gpu, width, height)?;
-            let slot = shading.slot(gpu, &visibility);
-            Ok(Lit { number: pass.light, light, technique: pass.technique, visibility, slot })
+        let lights = lights.into_iter().map(|LightPass { light, technique }| {
+            Lit::new(gpu, &shading, (light, light_of(&scene.lights, light)?), technique, (width, height))
         });
+        let textured = scene.lights.iter().any(|l| matches!(l.shape, LightShape::Rect { texture: Some(_), .. }));
         Ok(Self {
-            lights: lights.collect::<Result<_, Error>>()?,
+            lights: lights.collect::<Result<_, _>>()?,
             gpu: gpu.clone(),
             casters,
-            gbuffer,
-            receivers,
+            gbuffer: GBufferPass::new(gpu),
+            targets: Targets::new(gpu, &shading, &tonemap, (width, height)),
             shading,
             tonemap,
             recorder: Recorder::new(gpu),
@@ -127,46 +97,51 @@ impl Renderer {
         })
     }
 
-    /// Puts `new` in the place of pass number `pass` and gives back what was there. Geometry, targets and pipelines stay;
-    /// the light is as the scene has it.
-    ///
-    /// # Errors
-    /// [`Error::Scene`] where there is no such pass or light, and for a light of another pass.
-    pub fn exchange(&mut self, pass: usize, new: LightPass) -> Result<LightPass, Error> {
-        if self.lights.iter().enumerate().any(|(i, other)| i != pass && other.number == new.light) {
-            return Err(twice(new.light));
-        }
-        let light = light_of(&self.scene_lights, new.light)?;
-        let lit = self.lights.get_mut(pass).ok_or_else(|| no_pass(pass))?;
-        lit.light = light;
-        let number = std::mem::replace(&mut lit.number, new.light);
-        Ok(LightPass { light: number, technique: std::mem::replace(&mut lit.technique, new.technique) })
-    }
-
-    /// Records with `new` from the next frame on and gives back what was in use. Upload memory goes with it, and the GPU times that a
-    /// technique sees of its last frame: where techniques take turns, each has a recorder of its own.
-    pub fn exchange_recorder(&mut self, new: Recorder) -> Recorder {
-        std::mem::replace(&mut self.recorder, new)
-    }
-
-    /// Draws and submits one frame without waiting for it.
+    /// Draws and submits one frame to [`Renderer::picture`], without waiting for it.
     ///
     /// # Errors
     /// What the techniques give; [`Error::DeviceLost`] and [`Error::Driver`].
     pub fn frame(&mut self, camera: &Camera) -> Result<(), Error> {
+        let picture = self.targets.picture_view.clone();
+        self.draw(camera, &picture, PICTURE)
+    }
+
+    /// The same to a host's `target`, in place of [`Renderer::picture`]: a texture view of all of a texture that is as large as
+    /// this renderer's pictures, seen as `format`. Where `format` is neither sRGB nor of floats, the values are encoded as sRGB.
+    ///
+    /// # Errors
+    /// As [`Renderer::frame`]; [`Error::Scene`] for a target of another size, or a format that is not one of colours.
+    pub fn frame_into(
+        &mut self,
+        camera: &Camera,
+        target: &wgpu::TextureView,
+        format: wgpu::TextureFormat,
+    ) -> Result<(), Error> {
+        let (texture, (width, height)) = (target.texture(), self.targets.size());
+        let (x, y) = (texture.width(), texture.height());
+        if (x, y) != (width, height) {
+            return Err(Error::Scene(format!(
+                "the target is {x}×{y} but the renderer's pictures are {width}×{height}; resize it first"
+            )));
+        }
+        self.tonemap.prepare(&self.gpu, format)?;
+        self.draw(camera, target, format)
+    }
+
+    fn draw(&mut self, camera: &Camera, target: &wgpu::TextureView, format: wgpu::TextureFormat) -> Result<(), Error> {
         self.gpu.check()?;
-        let (width, height) = self.receivers.size;
-        let camera = camera.view(width, height);
+        let Targets { gbuffer, receivers, .. } = &self.targets;
+        let camera = camera.view(receivers.size.0, receivers.size.1);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let mut passes = self.recorder.begin(&mut encoder);
         passes.owner(Owner::Host("poses"));
         self.casters.record_poses(&mut passes);
         passes.owner(Owner::Host("gbuffer"));
-        self.gbuffer.record(&self.gpu, &mut passes, &self.casters, &camera, self.ambient);
-        let scene = Visible { camera, receivers: &self.receivers, casters: &self.casters, textures: &self.textures };
+        self.gbuffer.record(&self.gpu, &mut passes, gbuffer, &self.casters, &camera, self.ambient);
+        let scene = Visible { camera, receivers, casters: &self.casters, textures: &self.textures };
         let shade = |passes: &mut Passes<'_>, lit: &Lit| {
             passes.owner(Owner::Host("shading"));
-            self.shading.record(passes, &self.gbuffer, &scene.view(&lit.light), &lit.slot);
+            self.shading.record(passes, &self.targets, &scene.view(&lit.light), &lit.slot);
         };
         let mut preparing = Duration::ZERO;
         if let Some(overlay) = &self.overlay {
@@ -174,7 +149,7 @@ impl Renderer {
             overlay.find(&self.gpu, &mut passes, &scene, &mut self.lights)?;
             preparing += start.elapsed();
             self.lights.iter().for_each(|lit| shade(&mut passes, lit));
-            overlay.record(&mut passes, &self.gbuffer);
+            overlay.record(&mut passes, &gbuffer.radiance_view);
         } else {
             for lit in &mut self.lights {
                 passes.owner(Owner::Light(lit.number));
@@ -188,28 +163,10 @@ impl Renderer {
         }
         self.prepare_ms = preparing.as_secs_f64() * 1e3;
         passes.owner(Owner::Host("shading"));
-        self.tonemap.record(&mut passes);
+        self.tonemap.record(&mut passes, &self.targets.radiance, target, format);
         passes.finish();
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.check()
-    }
-
-    /// From the next frame on shades by the single-pass algorithm (PX 3.4): every light shines everywhere, and whatever is in
-    /// the shadow of any of them loses this share of its light; wrong, and kept to be compared with. The first light's technique
-    /// does all lights. `None` returns to the right one.
-    ///
-    /// # Errors
-    /// [`Error::Size`].
-    pub fn set_overlay(&mut self, darkness: Option<f32>) -> Result<(), Error> {
-        self.overlay = darkness.map(|d| Overlay::new(&self.gpu, self.receivers.size, d)).transpose()?;
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        let mut passes = self.recorder.begin(&mut encoder);
-        for lit in &self.lights {
-            passes.render("lit", &[lit.visibility.overwrite()], None);
-        }
-        passes.finish();
-        self.gpu.queue.submit([encoder.finish()]);
-        Ok(())
     }
 
     /// Waits until submitted frames are done.
@@ -244,79 +201,6 @@ impl Renderer {
     /// The technique of pass number `pass`.
     pub fn technique(&self, pass: usize) -> Option<&dyn Technique> {
         self.lights.get(pass).map(|l| &*l.technique)
-    }
-
-    /// Has every technique drop what it keeps from frame to frame, see [`Technique::forget`].
-    pub fn forget(&mut self) {
-        self.lights.iter_mut().for_each(|light| light.technique.forget());
-    }
-
-    /// The scene's geometry on the GPU, to move instances.
-    pub fn casters_mut(&mut self) -> &mut Casters {
-        &mut self.casters
-    }
-
-    /// The light of pass number `pass`, to move it.
-    pub fn light_mut(&mut self, pass: usize) -> Option<&mut Light> {
-        self.lights.get_mut(pass).map(|l| &mut l.light)
-    }
-
-    /// The tone-mapped picture, sRGB and opaque.
-    ///
-    /// # Errors
-    /// As [`Renderer::wait`]; so do all that read back.
-    pub fn color(&self) -> Result<Image<[u8; 4]>, Error> {
-        read::rgba8(&self.gpu, &self.tonemap.texture)
-    }
-
-    /// The visibility that pass number `pass` left, 0…1. What non-receiving surfaces hold means nothing.
-    ///
-    /// # Errors
-    /// [`Error::Scene`] where there is no such pass.
-    pub fn visibility(&self, pass: usize) -> Result<Image<f32>, Error> {
-        let lit = self.lights.get(pass).ok_or_else(|| no_pass(pass))?;
-        lit.visibility.read(&self.gpu)
-    }
-
-    /// Depth along the view direction in metres, 0 where nothing is.
-    ///
-    /// # Errors
-    /// As [`Renderer::color`].
-    pub fn depth(&self, camera: &Camera) -> Result<Image<f32>, Error> {
-        let stored = read::one_channel(&self.gpu, &self.gbuffer.depth, 0)?;
-        Ok(stored.map(|d| if *d > 0.0 { camera.near as f32 / d } else { 0.0 }))
-    }
-
-    /// Geometric normals turned to the camera; zero where nothing is.
-    ///
-    /// # Errors
-    /// As [`Renderer::color`].
-    pub fn normal(&self) -> Result<Image<[f32; 3]>, Error> {
-        let (packed, depth) = (
-            read::packed_normals(&self.gpu, &self.gbuffer.normal)?,
-            read::one_channel(&self.gpu, &self.gbuffer.depth, 0)?,
-        );
-        Ok(Image::from_fn(
-            packed.width,
-            packed.height,
-            |x, y| if depth[(x, y)] > 0.0 { packed[(x, y)] } else { [0.0; 3] },
-        ))
-    }
-
-    /// A picture of the inside of a technique that is in colour.
-    ///
-    /// # Errors
-    /// As [`Renderer::color`].
-    pub fn read_debug_color(&self, view: &DebugView<'_>) -> Result<Image<[u8; 4]>, Error> {
-        read::rgba8(&self.gpu, view.texture)
-    }
-
-    /// A picture of the inside of a technique, as it is stored: depths or numbers.
-    ///
-    /// # Errors
-    /// As [`Renderer::color`].
-    pub fn read_debug_view(&self, view: &DebugView<'_>) -> Result<Image<f32>, Error> {
-        read::one_channel(&self.gpu, view.texture, view.layer)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Adds one light under its visibility: the standard lighting model (PX 2.2.4), per pixel.
 
-use crate::gbuffer::GBuffer;
+use crate::targets::{GBuffer, Targets, WIDE};
 use umbrage::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout};
 use umbrage::{Eye, Gpu, Passes, Receivers, Shader, View, VisibilityTarget, shader_struct};
 use umbrage_core::{LightShape, glam::DVec3};
@@ -27,39 +27,44 @@ shader_struct! {
     }
 }
 
-pub(super) struct Shading {
+/// Adds lights to the radiance of a G-buffer.
+pub(crate) struct Shading {
     pipeline: wgpu::RenderPipeline,
-    surface: wgpu::BindGroup,
+    surface_layout: wgpu::BindGroupLayout,
     light_layout: wgpu::BindGroupLayout,
 }
 
 /// What one light needs of its own.
-pub(super) struct Slot {
+pub(crate) struct Slot {
     uniforms: wgpu::Buffer,
     bind_group: wgpu::BindGroup,
 }
 
 impl Shading {
-    pub(super) fn new(gpu: &Gpu, gbuffer: &GBuffer) -> Self {
+    pub fn new(gpu: &Gpu) -> Self {
         let stage = wgpu::ShaderStages::FRAGMENT;
         let floats = fullscreen::texture(FLOATS);
         let surface_layout = layout(gpu, "surface", stage, &[floats, floats]);
         let light_layout = layout(gpu, "light", stage, &[UNIFORM, floats]);
-        let surface = [&gbuffer.shading_view, &gbuffer.color_view].map(wgpu::BindingResource::TextureView);
-        let surface = bind(gpu, "surface", &surface_layout, &surface);
         let pipeline = Fullscreen {
             label: "shading",
             module: &SHADER.module(gpu),
             entry: "shade",
             groups: &[&Receivers::layout(gpu), &surface_layout, &light_layout],
-            target: additive(wgpu::TextureFormat::Rgba16Float),
+            target: additive(WIDE),
             constants: &[],
         }
         .pipeline(gpu);
-        Self { pipeline, surface, light_layout }
+        Self { pipeline, surface_layout, light_layout }
     }
 
-    pub(super) fn slot(&self, gpu: &Gpu, visibility: &VisibilityTarget) -> Slot {
+    /// What is read of a G-buffer.
+    pub fn surface(&self, gpu: &Gpu, gbuffer: &GBuffer) -> wgpu::BindGroup {
+        let views = [&gbuffer.shading_view, &gbuffer.color_view].map(wgpu::BindingResource::TextureView);
+        bind(gpu, "surface", &self.surface_layout, &views)
+    }
+
+    pub fn slot(&self, gpu: &Gpu, visibility: &VisibilityTarget) -> Slot {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniforms = gpu.buffer("light", &[ShadingLight::default()], usage);
         let visibility = wgpu::BindingResource::TextureView(&visibility.view);
@@ -67,13 +72,13 @@ impl Shading {
         Slot { uniforms, bind_group }
     }
 
-    pub(super) fn record(&self, passes: &mut Passes<'_>, gbuffer: &GBuffer, view: &View<'_>, slot: &Slot) {
+    pub fn record(&self, passes: &mut Passes<'_>, targets: &Targets, view: &View<'_>, slot: &Slot) {
         passes.upload(&slot.uniforms, bytemuck::bytes_of(&light_uniforms(view)));
-        let target = attachment(&gbuffer.radiance_view, wgpu::LoadOp::Load);
+        let target = attachment(&targets.gbuffer.radiance_view, wgpu::LoadOp::Load);
         let mut pass = passes.render("light", &[target], None);
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, view.receivers.bind_group(), &[]);
-        pass.set_bind_group(1, &self.surface, &[]);
+        pass.set_bind_group(1, &targets.surface, &[]);
         pass.set_bind_group(2, &slot.bind_group, &[]);
         pass.draw(0..3, 0..1);
     }

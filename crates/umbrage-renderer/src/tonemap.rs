@@ -1,45 +1,83 @@
 //! Radiance to a picture for the screen.
 
-use crate::gbuffer::GBuffer;
-use umbrage::fullscreen::{self, FLOATS, Fullscreen, attachment, bind, layout, target_texture};
-use umbrage::{Gpu, Passes, Shader};
+use crate::targets::{GBuffer, PICTURE};
+use umbrage::fullscreen::{self, FLOATS, Fullscreen, attachment, bind, layout};
+use umbrage::{Error, Gpu, Passes, Shader};
 
 /// The shader.
 pub const SHADER: Shader = Shader::new("tone mapping", include_str!("tonemap.wgsl"));
 
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
-
-pub(super) struct ToneMap {
-    pub(super) texture: wgpu::Texture,
-    view: wgpu::TextureView,
-    pipeline: wgpu::RenderPipeline,
-    bind_group: wgpu::BindGroup,
+/// Draws radiance to targets of any format.
+pub(crate) struct ToneMap {
+    module: wgpu::ShaderModule,
+    layout: wgpu::BindGroupLayout,
+    /// One for each format that was drawn to.
+    pipelines: Vec<(wgpu::TextureFormat, wgpu::RenderPipeline)>,
 }
 
 impl ToneMap {
-    pub(super) fn new(gpu: &Gpu, gbuffer: &GBuffer, width: u32, height: u32) -> Self {
-        let texture = target_texture(gpu, "picture", (width, height), 1, FORMAT);
+    pub fn new(gpu: &Gpu) -> Self {
+        let module = SHADER.module(gpu);
         let layout = layout(gpu, "radiance", wgpu::ShaderStages::FRAGMENT, &[fullscreen::texture(FLOATS)]);
-        let radiance = wgpu::BindingResource::TextureView(&gbuffer.radiance_view);
-        let bind_group = bind(gpu, "radiance", &layout, &[radiance]);
-        let pipeline = Fullscreen {
-            label: "tone mapping",
-            module: &SHADER.module(gpu),
-            entry: "tonemap",
-            groups: &[&layout],
-            target: FORMAT.into(),
-            constants: &[],
-        }
-        .pipeline(gpu);
-        let view = texture.create_view(&Default::default());
-        Self { texture, view, pipeline, bind_group }
+        let own = pipeline(gpu, &module, &layout, PICTURE);
+        Self { module, layout, pipelines: vec![(PICTURE, own)] }
     }
 
-    pub(super) fn record(&self, passes: &mut Passes<'_>) {
-        let target = attachment(&self.view, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));
+    /// What is read of a G-buffer.
+    pub fn radiance(&self, gpu: &Gpu, gbuffer: &GBuffer) -> wgpu::BindGroup {
+        bind(gpu, "radiance", &self.layout, &[wgpu::BindingResource::TextureView(&gbuffer.radiance_view)])
+    }
+
+    /// Makes what targets of this format need, where it is not there yet.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for a format that is not one of colours.
+    pub fn prepare(&mut self, gpu: &Gpu, format: wgpu::TextureFormat) -> Result<(), Error> {
+        if self.pipelines.iter().any(|(known, _)| *known == format) {
+            return Ok(());
+        }
+        let is_float = matches!(format.sample_type(None, None), Some(wgpu::TextureSampleType::Float { .. }));
+        let usages = format.guaranteed_format_features(gpu.device.features()).allowed_usages;
+        if !is_float || !usages.contains(wgpu::TextureUsages::RENDER_ATTACHMENT) {
+            return Err(Error::Scene(format!("a picture can't be drawn as {format:?}; choose a format of colours")));
+        }
+        self.pipelines.push((format, pipeline(gpu, &self.module, &self.layout, format)));
+        Ok(())
+    }
+
+    /// Draws `radiance` to a view of a format that was prepared.
+    pub fn record(
+        &self,
+        passes: &mut Passes<'_>,
+        radiance: &wgpu::BindGroup,
+        target: &wgpu::TextureView,
+        format: wgpu::TextureFormat,
+    ) {
+        let Some((_, pipeline)) = self.pipelines.iter().find(|(known, _)| *known == format) else { return };
+        let target = attachment(target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));
         let mut pass = passes.render("tone mapping", &[target], None);
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, &self.bind_group, &[]);
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, radiance, &[]);
         pass.draw(0..3, 0..1);
     }
+}
+
+fn pipeline(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    layout: &wgpu::BindGroupLayout,
+    format: wgpu::TextureFormat,
+) -> wgpu::RenderPipeline {
+    use wgpu::TextureFormat::{Rg11b10Ufloat, Rgba16Float, Rgba32Float};
+    // What is stored in the format is linear, or the GPU encodes it.
+    let is_linear = format.is_srgb() || matches!(format, Rg11b10Ufloat | Rgba16Float | Rgba32Float);
+    Fullscreen {
+        label: "tone mapping",
+        module,
+        entry: "tonemap",
+        groups: &[layout],
+        target: format.into(),
+        constants: &[("ENCODES", f64::from(u8::from(!is_linear)))],
+    }
+    .pipeline(gpu)
 }

@@ -3,7 +3,14 @@
 
 @group(0) @binding(0) var radiance_texture: texture_2d<f32>;
 
+// Whether the target holds sRGB values that the GPU does not encode by itself.
+override ENCODES: bool = false;
+
 const SHOULDER: f32 = 0.8;
+
+fn srgb_encoded(linear: vec3f) -> vec3f {
+    return select(12.92 * linear, 1.055 * pow(linear, vec3f(1.0 / 2.4)) - 0.055, linear > vec3f(0.0031308));
+}
 
 @fragment
 fn tonemap(@builtin(position) at: vec4f) -> @location(0) vec4f {
@@ -17,5 +24,9 @@ fn tonemap(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let room = 1.0 - SHOULDER;
     let over = max(peak - SHOULDER, 0.0);
     let rolled = min(peak, SHOULDER) + room * over / (over + room);
-    return vec4f(color * (rolled / max(peak, 1e-6)), 1.0);
+    let shown = color * (rolled / max(peak, 1e-6));
+    if ENCODES {
+        return vec4f(srgb_encoded(shown), 1.0);
+    }
+    return vec4f(shown, 1.0);
 }

@@ -1,0 +1,102 @@
+//! What of a renderer can change from one frame to the next, without making it anew.
+
+use crate::{LightPass, Renderer, light_of, lit::Lit, no_pass, overlay::Overlay, targets::Targets, twice};
+use umbrage::{Casters, Error, Recorder, Technique};
+use umbrage_core::Light;
+
+impl Renderer {
+    /// From the next frame on makes pictures of `width` × `height`. Pipelines, casters and techniques stay; techniques make
+    /// what depends on the size in that frame.
+    ///
+    /// # Errors
+    /// [`Error::Size`] beyond the adapter's limits; then everything stays as it was.
+    pub fn resize(&mut self, width: u32, height: u32) -> Result<(), Error> {
+        let size = (width, height);
+        if size == self.targets.size() {
+            return Ok(());
+        }
+        self.gpu.check_size("the picture", width, height)?;
+        self.targets = Targets::new(&self.gpu, &self.shading, &self.tonemap, size);
+        for lit in &mut self.lights {
+            lit.resize(&self.gpu, &self.shading, size)?;
+        }
+        if let Some(overlay) = &mut self.overlay {
+            overlay.resize(&self.gpu, size)?;
+            self.light_everything();
+        }
+        Ok(())
+    }
+
+    /// From the next frame on `technique` finds the visibility of pass number `pass`; everything else stays, and its light where it is.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where there is no such pass.
+    pub fn set_technique(&mut self, pass: usize, technique: Box<dyn Technique>) -> Result<(), Error> {
+        self.lit_mut(pass)?.technique = technique;
+        Ok(())
+    }
+
+    /// Puts `new` in the place of pass number `pass` and gives back what was there. Geometry, targets and pipelines stay;
+    /// the light is as the scene has it.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where there is no such pass or light, and for a light of another pass.
+    pub fn exchange(&mut self, pass: usize, new: LightPass) -> Result<LightPass, Error> {
+        if self.lights.iter().enumerate().any(|(i, other)| i != pass && other.number == new.light) {
+            return Err(twice(new.light));
+        }
+        let light = light_of(&self.scene_lights, new.light)?;
+        let lit = self.lit_mut(pass)?;
+        lit.light = light;
+        let number = std::mem::replace(&mut lit.number, new.light);
+        Ok(LightPass { light: number, technique: std::mem::replace(&mut lit.technique, new.technique) })
+    }
+
+    /// Records with `new` from the next frame on and gives back what was in use. Upload memory goes with it, and the GPU times that a
+    /// technique sees of its last frame: where techniques take turns, each has a recorder of its own.
+    pub fn exchange_recorder(&mut self, new: Recorder) -> Recorder {
+        std::mem::replace(&mut self.recorder, new)
+    }
+
+    /// From the next frame on shades by the single-pass algorithm (PX 3.4): every light shines everywhere, and whatever is in
+    /// the shadow of any of them loses this share of its light; wrong, and kept to be compared with. The first light's technique
+    /// does all lights. `None` returns to the right one.
+    ///
+    /// # Errors
+    /// [`Error::Size`].
+    pub fn set_overlay(&mut self, darkness: Option<f32>) -> Result<(), Error> {
+        self.overlay = darkness.map(|d| Overlay::new(&self.gpu, self.targets.size(), d)).transpose()?;
+        self.light_everything();
+        Ok(())
+    }
+
+    /// Leaves the visibility of every light at 1, since an overlay's lights shine everywhere.
+    fn light_everything(&mut self) {
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        let mut passes = self.recorder.begin(&mut encoder);
+        for lit in &self.lights {
+            passes.render("lit", &[lit.visibility.overwrite()], None);
+        }
+        passes.finish();
+        self.gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Has every technique drop what it keeps from frame to frame, see [`Technique::forget`].
+    pub fn forget(&mut self) {
+        self.lights.iter_mut().for_each(|light| light.technique.forget());
+    }
+
+    /// The scene's geometry on the GPU, to move instances.
+    pub fn casters_mut(&mut self) -> &mut Casters {
+        &mut self.casters
+    }
+
+    /// The light of pass number `pass`, to move it.
+    pub fn light_mut(&mut self, pass: usize) -> Option<&mut Light> {
+        self.lights.get_mut(pass).map(|l| &mut l.light)
+    }
+
+    fn lit_mut(&mut self, pass: usize) -> Result<&mut Lit, Error> {
+        self.lights.get_mut(pass).ok_or_else(|| no_pass(pass))
+    }
+}

@@ -1,0 +1,76 @@
+//! What a renderer hands out: its picture, and what it is made of, read back for files and tests.
+
+use crate::{Renderer, no_pass};
+use umbrage::{DebugView, Error, read};
+use umbrage_core::{Camera, Image};
+
+impl Renderer {
+    /// The tone-mapped picture of the last [`Renderer::frame`], sRGB and opaque: to be sampled or copied from. Another
+    /// one after [`Renderer::resize`].
+    pub fn picture(&self) -> &wgpu::Texture {
+        &self.targets.picture
+    }
+
+    /// A view of all of [`Renderer::picture`].
+    pub fn picture_view(&self) -> &wgpu::TextureView {
+        &self.targets.picture_view
+    }
+
+    /// [`Renderer::picture`], read back.
+    ///
+    /// # Errors
+    /// As [`Renderer::wait`]; so do all that read back.
+    pub fn color(&self) -> Result<Image<[u8; 4]>, Error> {
+        read::rgba8(&self.gpu, self.picture())
+    }
+
+    /// The visibility that pass number `pass` left, 0…1. What non-receiving surfaces hold means nothing.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where there is no such pass.
+    pub fn visibility(&self, pass: usize) -> Result<Image<f32>, Error> {
+        let lit = self.lights.get(pass).ok_or_else(|| no_pass(pass))?;
+        lit.visibility.read(&self.gpu)
+    }
+
+    /// Depth along the view direction in metres, 0 where nothing is.
+    ///
+    /// # Errors
+    /// As [`Renderer::color`].
+    pub fn depth(&self, camera: &Camera) -> Result<Image<f32>, Error> {
+        let stored = read::one_channel(&self.gpu, &self.targets.gbuffer.depth, 0)?;
+        Ok(stored.map(|d| if *d > 0.0 { camera.near as f32 / d } else { 0.0 }))
+    }
+
+    /// Geometric normals turned to the camera; zero where nothing is.
+    ///
+    /// # Errors
+    /// As [`Renderer::color`].
+    pub fn normal(&self) -> Result<Image<[f32; 3]>, Error> {
+        let (packed, depth) = (
+            read::packed_normals(&self.gpu, &self.targets.gbuffer.normal)?,
+            read::one_channel(&self.gpu, &self.targets.gbuffer.depth, 0)?,
+        );
+        Ok(Image::from_fn(
+            packed.width,
+            packed.height,
+            |x, y| if depth[(x, y)] > 0.0 { packed[(x, y)] } else { [0.0; 3] },
+        ))
+    }
+
+    /// A picture of the inside of a technique that is in colour.
+    ///
+    /// # Errors
+    /// As [`Renderer::color`].
+    pub fn read_debug_color(&self, view: &DebugView<'_>) -> Result<Image<[u8; 4]>, Error> {
+        read::rgba8(&self.gpu, view.texture)
+    }
+
+    /// A picture of the inside of a technique, as it is stored: depths or numbers.
+    ///
+    /// # Errors
+    /// As [`Renderer::color`].
+    pub fn read_debug_view(&self, view: &DebugView<'_>) -> Result<Image<f32>, Error> {
+        read::one_channel(&self.gpu, view.texture, view.layer)
+    }
+}
