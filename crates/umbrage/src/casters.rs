@@ -34,7 +34,11 @@ use vertices::Vertices;
 pub(crate) use vertices::{MeshPart, vertex_layouts};
 
 /// What the host has to agree on with `instances.wgsl`.
-const INSTANCES: Shared = Shared { module: "instances", layouts: &[Instance::LAYOUT], constants: &[] };
+const INSTANCES: Shared = Shared {
+    module: "instances",
+    layouts: &[Instance::LAYOUT],
+    constants: &[("RECEIVES", RECEIVES as f64), ("CASTS", CASTS as f64)],
+};
 
 /// What the host has to agree on with the modules of this folder.
 pub(crate) const SHARED: &[Shared] = &[INSTANCES, material::SHARED, edges::SHARED, poses::SHARED];

@@ -8,7 +8,11 @@ use umbrage_core::adjacency::{Adjacency, NONE, without_copies};
 use umbrage_core::{Mesh, glam::Vec4};
 
 /// What the host has to agree on with `edges.wgsl`.
-pub(super) const SHARED: Shared = Shared { module: "edges", layouts: &[Edge::LAYOUT], constants: &[] };
+pub(super) const SHARED: Shared = Shared {
+    module: "edges",
+    layouts: &[Edge::LAYOUT],
+    constants: &[("NO_TRIANGLE", NO_TRIANGLE as f64), ("SAME_DIRECTION", SAME_DIRECTION as f64)],
+};
 
 shader_struct! {
     /// An edge between two vertices and its triangles, see `edges.wgsl`.

@@ -7,8 +7,9 @@ use crate::shader::{Shader, Shared, shader_struct};
 use crate::{gpu::Gpu, passes::Passes};
 
 /// Makes the pyramid, level by level.
-pub(crate) const BOUNDS_SHADER: Shader =
-    Shader::new("map bounds", include_str!("stages/map_bounds.wgsl")).with_layouts(&[MapBoundsPass::LAYOUT]);
+pub(crate) const BOUNDS_SHADER: Shader = Shader::new("map bounds", include_str!("stages/map_bounds.wgsl"))
+    .with_layouts(&[MapBoundsPass::LAYOUT])
+    .with_constants(&[("WORKGROUP", WORKGROUP as f64)]);
 
 /// What the host has to agree on with `map_cells.wgsl`.
 pub(super) const SHARED: Shared = Shared { module: "map_cells", layouts: &[MapBoundsHead::LAYOUT], constants: &[] };

@@ -60,8 +60,11 @@ pub(crate) const SHARED: &[Shared] = &[uniforms::SHARED[0], uniforms::SHARED[1],
 use umbrage_core::light_view::{FitScene, Focus, LightView, Omni};
 use umbrage_core::{Bounds, LightKind, LightKinds, glam::DVec3, scene_tree::Sphere};
 
+/// Most layers of a light's maps: as many as there may be splits.
+pub(crate) const MOST_LAYERS: usize = umbrage_core::splits::MOST_SPLITS;
+
 /// Names of the pictures inside, one a layer.
-pub(crate) const LAYER_NAMES: [&str; 9] =
+pub(crate) const LAYER_NAMES: [&str; MOST_LAYERS] =
     ["map-0", "map-1", "map-2", "map-3", "map-4", "map-5", "map-6", "map-7", "map-8"];
 
 /// A technique that renders depth maps and looks them up in one full-screen pass; techniques differ in the shader.

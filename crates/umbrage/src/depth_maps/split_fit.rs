@@ -2,8 +2,8 @@
 //!
 //! Sources: Lauritzen, Salvi and Lefohn, "Sample Distribution Shadow Maps", 2011 (the range; parts are cropped by their corners).
 
-use super::DepthMaps;
 use super::uniforms::{MapLayer, texels_in_plane};
+use super::{DepthMaps, MOST_LAYERS};
 use crate::fullscreen::{STORAGE_WRITE, UNIFORM, bind, layout};
 use crate::shader::{Shader, shader_struct};
 use crate::{
@@ -16,8 +16,9 @@ use umbrage_core::glam::{DMat4, DVec4};
 use umbrage_core::light_view::LightView;
 
 /// Finds the range of visible depths and crops views to parts of it.
-pub(crate) const SPLIT_FIT_SHADER: Shader =
-    Shader::new("split fit", include_str!("stages/split_fit.wgsl")).with_layouts(&[SplitFit::LAYOUT]);
+pub(crate) const SPLIT_FIT_SHADER: Shader = Shader::new("split fit", include_str!("stages/split_fit.wgsl"))
+    .with_layouts(&[SplitFit::LAYOUT])
+    .with_constants(&[("PIXELS", PIXELS as f64)]);
 
 shader_struct! {
     /// See `stages/split_fit.wgsl`.
@@ -87,7 +88,7 @@ impl SplitFitter {
         use wgpu::BufferUsages as Usage;
         let uniform = gpu.buffer("split fit", &[SplitFit::default()], Usage::UNIFORM | Usage::COPY_DST);
         let range = gpu.buffer("visible range", &[0u32; 2], Usage::STORAGE | Usage::COPY_DST);
-        let matrices = gpu.buffer("split views", &[[0f32; 16]; 9], Usage::STORAGE | Usage::COPY_SRC);
+        let matrices = gpu.buffer("split views", &[[0f32; 16]; MOST_LAYERS], Usage::STORAGE | Usage::COPY_SRC);
         let buffers = [&uniform, &range, lookup, &matrices].map(wgpu::Buffer::as_entire_binding);
         Self {
             find_range: pipeline("find_range", 0.0),

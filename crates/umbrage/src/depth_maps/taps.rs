@@ -44,7 +44,8 @@ shader_struct! {
 }
 
 /// What the host has to agree on with `map_taps.wgsl`.
-pub(super) const SHARED: Shared = Shared { module: "map_taps", layouts: &[TapsHead::LAYOUT], constants: &[] };
+pub(super) const SHARED: Shared =
+    Shared { module: "map_taps", layouts: &[TapsHead::LAYOUT], constants: &[("TILE_PIXELS", PIXELS as f64)] };
 
 /// Taps for one kind of light.
 pub(crate) struct Taps {

@@ -1,7 +1,8 @@
 //! What the shader that looks maps up has to know: the eye, the views and the light's extent.
 
-use super::DepthMaps;
 use super::extent::{LightExtent, nearest};
+use super::views::LAYER_CONSTANTS;
+use super::{DepthMaps, MOST_LAYERS};
 use crate::{receivers::Eye, shader::Shared, shader::shader_struct, view::View};
 use umbrage_core::Bounds;
 use umbrage_core::glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
@@ -66,7 +67,7 @@ pub(super) const SHARED: [Shared; 2] = [
     Shared {
         module: "map_layers",
         layouts: &[MapLayer::LAYOUT, LightExtent::LAYOUT, MapLookup::LAYOUT],
-        constants: &[],
+        constants: LAYER_CONSTANTS,
     },
 ];
 
@@ -128,12 +129,14 @@ impl MapLookup {
 impl MapLookup {
     /// What chooses the split of a pixel.
     fn splits(view: &View<'_>, maps: &DepthMaps, eye_from_ndc: &DMat4) -> Self {
-        let [mut splits, mut blends] = [[f32::MAX; 8]; 2];
-        for (i, ends) in maps.borders.windows(2).take(maps.borders.len().saturating_sub(2)).enumerate().take(8) {
+        let [mut splits, mut blends] = [[f32::MAX; MOST_LAYERS - 1]; 2];
+        for (i, ends) in
+            maps.borders.windows(2).take(maps.borders.len().saturating_sub(2)).enumerate().take(MOST_LAYERS - 1)
+        {
             splits[i] = ends[1] as f32;
             blends[i] = (ends[1] - maps.choice.overlap() * (ends[1] - ends[0])) as f32;
         }
-        let halves = |v: [f32; 8]| [[v[0], v[1], v[2], v[3]], [v[4], v[5], v[6], v[7]]];
+        let halves = |v: [f32; MOST_LAYERS - 1]| [[v[0], v[1], v[2], v[3]], [v[4], v[5], v[6], v[7]]];
         Self {
             splits: halves(splits),
             blends: halves(blends),
@@ -143,9 +146,6 @@ impl MapLookup {
         }
     }
 }
-
-/// Most layers of a light's maps: as many as there may be splits.
-const MOST_LAYERS: usize = umbrage_core::splits::MOST_SPLITS;
 
 impl MapLayer {
     pub(super) fn of(view: &LightView, world_from_ndc: &DMat4, casters: &[Bounds]) -> Self {

@@ -1,7 +1,7 @@
 //! Which views of a light a technique renders.
 
-use super::DepthMaps;
-use crate::{params::Settings, view::View};
+use super::{DepthMaps, MOST_LAYERS};
+use crate::{params::Settings, shader::HostConstant, view::View};
 use umbrage_core::light_view::{
     CUBE_SIDES, Cascades, Cover, Fit, Focus, LightView, Omni, Warp, fit, fit_cascades, fit_warped,
 };
@@ -30,8 +30,8 @@ pub(super) enum Blend {
 
 impl Blend {
     /// `BLEND` in `lookup/map_layers.wgsl`.
-    pub(super) fn number(self) -> f64 {
-        f64::from(self as u8)
+    pub(super) const fn number(self) -> f64 {
+        self as u8 as f64
     }
 }
 
@@ -146,6 +146,19 @@ impl DepthMaps {
     }
 }
 
+/// What `lookup/map_layers.wgsl` calls the limit and the kinds of layers and blends.
+pub(super) const LAYER_CONSTANTS: &[HostConstant] = &[
+    ("MOST_LAYERS", MOST_LAYERS as f64),
+    ("SINGLE", Layers::Single.number()),
+    ("CUBE", Layers::Omni(Omni::Cube).number()),
+    ("TETRAHEDRON", Layers::Omni(Omni::Tetrahedral).number()),
+    ("PARABOLOIDS", Layers::Omni(Omni::DualParaboloid).number()),
+    ("SPLITS", Layers::Splits(1).number()),
+    ("SIDES", Layers::Sides.number()),
+    ("DITHER", Blend::Dither.number()),
+    ("LERP", Blend::Lerp.number()),
+];
+
 /// What the layers of a map are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Layers {
@@ -177,7 +190,7 @@ impl Layers {
     }
 
     /// `LAYOUT` in `lookup/map_layers.wgsl`.
-    pub(super) fn number(self) -> f64 {
+    pub(super) const fn number(self) -> f64 {
         match self {
             Self::Single => 0.0,
             Self::Omni(Omni::Cube) => 1.0,

@@ -9,7 +9,7 @@ mod work;
 
 use crate::casters::Edges;
 use crate::fullscreen::{STORAGE, UNIFORM, layout};
-use crate::shader::{Shader, Shared, shader_struct};
+use crate::shader::{HostConstant, Shader, Shared, shader_struct};
 use crate::{casters::Casters, error::Error, gpu::Gpu, passes::Passes};
 use find::Find;
 use std::ops::Range;
@@ -23,7 +23,7 @@ pub(crate) const FIND_SHADER: Shader = Shader::new("find silhouettes", include_s
 
 /// What the host has to agree on with the modules that extrude what was found.
 pub(crate) const SHARED: &[Shared] = &[
-    Shared { module: "edges", layouts: &[Caster::LAYOUT], constants: &[] },
+    Shared { module: "edges", layouts: &[Caster::LAYOUT], constants: FLAGS },
     Shared { module: "extrude", layouts: &[Extrusion::LAYOUT], constants: &[] },
 ];
 
@@ -72,6 +72,18 @@ const COUNT_FROM_INFINITY: u32 = 64;
 
 /// Edges, or triangles, of one caster that go together.
 const CHUNK: u32 = 64;
+
+/// The same for `casters/edges.wgsl`.
+const FLAGS: &[HostConstant] = &[
+    ("AWAY", AWAY as f64),
+    ("MIRRORED", MIRRORED as f64),
+    ("Z_FAIL", Z_FAIL as f64),
+    ("LIGHT_CAP", LIGHT_CAP as f64),
+    ("DARK_CAP", DARK_CAP as f64),
+    ("BODY", BODY as f64),
+    ("COUNT_FROM_INFINITY", COUNT_FROM_INFINITY as f64),
+    ("CHUNK", CHUNK as f64),
+];
 
 /// Vertex numbers of one part end before those of the next one start.
 const VERTICES: u32 = 512;

@@ -48,9 +48,12 @@ struct LightExtent {
     pad_e: f32,
 }
 
+// Most layers of a light.
+const MOST_LAYERS: u32 = 9u;
+
 struct MapLookup {
     eye: Eye,
-    layers: array<MapLayer, 9>,
+    layers: array<MapLayer, MOST_LAYERS>,
     // Camera's normalised device coordinates to the way from a point light, times w. Chooses the layer.
     from_light: mat4x4f,
     // Rounding of stored depth: relative, and absolute.
@@ -96,7 +99,7 @@ const SPLITS: u32 = 4u;
 const SIDES: u32 = 5u;
 
 // How many layers there may be; sizes the search for a split.
-override LAYERS: u32 = 9u;
+override LAYERS: u32 = MOST_LAYERS;
 // Splits stand still while the camera moves.
 override STEADY: bool = false;
 
@@ -125,7 +128,7 @@ fn split_at(distance: f32) -> Split {
         // No border beyond the last split but one is ever reached.
         let begin = map.blends[(layer >> 2u) & 1u][layer & 3u];
         let end = map.splits[(layer >> 2u) & 1u][layer & 3u];
-        next = select(0.0, (distance - begin) / (end - begin), distance > begin && layer < 8u);
+        next = select(0.0, (distance - begin) / (end - begin), distance > begin && layer < MOST_LAYERS - 1u);
     }
     return Split(layer, next, distance <= map.last_split);
 }

@@ -140,7 +140,7 @@ fn split_of(pixel: Pixel, first: MapPoint) -> Split {
     let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
     var split = split_at(dot(map.view_distance, ndc) / eye_w(map.eye, ndc));
     if STEADY {
-        let layer = min(split.layer, 8u);
+        let layer = min(split.layer, MOST_LAYERS - 1u);
         let finer = max(layer, 1u) - 1u;
         let share = steady_share(first, finer);
         let next = split.next * (1.0 - steady_share(first, layer));

@@ -7,11 +7,14 @@ struct MapBoundsPass {
     level: u32,
 }
 
+// Threads across and down.
+const WORKGROUP: u32 = 8u;
+
 @group(0) @binding(0) var map_level: texture_depth_2d_array;
 @group(0) @binding(1) var<storage, read_write> bounds: MapBounds;
 @group(0) @binding(2) var<uniform> bounds_pass: MapBoundsPass;
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(WORKGROUP, WORKGROUP)
 fn bounds_of_map(@builtin(global_invocation_id) cell: vec3u) {
     if any(cell.xy >= vec2u(bounds.head.cells)) {
         return;
@@ -28,7 +31,7 @@ fn bounds_of_map(@builtin(global_invocation_id) cell: vec3u) {
     bounds.nearest[cell_index(bounds.head, bounds_pass.layer, 0u, cell.xy)] = nearest;
 }
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(WORKGROUP, WORKGROUP)
 fn bounds_of_bounds(@builtin(global_invocation_id) cell: vec3u) {
     if any(cell.xy >= vec2u(bounds.head.cells >> bounds_pass.level)) {
         return;

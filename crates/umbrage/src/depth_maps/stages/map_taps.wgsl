@@ -11,9 +11,12 @@ struct TapsHead {
     is_square: u32,
 }
 
+// Pixels of the largest tile.
+const TILE_PIXELS: u32 = 1024u;
+
 struct Taps {
     head: TapsHead,
-    set_of_pixel: array<u32, 1024>,
+    set_of_pixel: array<u32, TILE_PIXELS>,
     offsets: array<vec2f>,
 }
 

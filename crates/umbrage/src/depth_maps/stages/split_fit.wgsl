@@ -33,15 +33,18 @@ struct VisibleRange {
 @group(2) @binding(0) var<uniform> fit: SplitFit;
 @group(2) @binding(1) var<storage, read_write> visible: VisibleRange;
 @group(2) @binding(2) var<storage, read_write> lookup: MapLookup;
-@group(2) @binding(3) var<storage, read_write> views: array<mat4x4f, 9>;
+@group(2) @binding(3) var<storage, read_write> views: array<mat4x4f, MOST_LAYERS>;
 
 var<workgroup> group_near: atomic<u32>;
 var<workgroup> group_far: atomic<u32>;
 
 // Pixels across and down a thread.
 const BLOCK: u32 = 4u;
+// Threads across and down, and their pixels.
+const THREADS: u32 = 8u;
+const PIXELS: u32 = THREADS * BLOCK;
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(THREADS, THREADS)
 fn find_range(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_index) index: u32) {
     if index == 0u {
         atomicStore(&group_near, 0xffffffffu);
@@ -125,7 +128,7 @@ fn cropped_clip(scale: vec2f, offset: vec2f) -> mat4x4f {
     return clip;
 }
 
-@compute @workgroup_size(9)
+@compute @workgroup_size(MOST_LAYERS)
 fn fit_splits(@builtin(local_invocation_index) i: u32) {
     if i >= fit.count {
         return;

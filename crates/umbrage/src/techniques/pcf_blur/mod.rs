@@ -25,7 +25,8 @@ const MODULES: &[Module] = &[
 ];
 
 const fn shader(name: &'static str, source: &'static str) -> Shader {
-    Shader::new(name, source).with_modules(MODULES).with_layouts(&[Blur::LAYOUT])
+    let constants = &[("OWN_SHADOW", OWN_SHADOW)];
+    Shader::new(name, source).with_modules(MODULES).with_layouts(&[Blur::LAYOUT]).with_constants(constants)
 }
 
 const TILES_SHADER: Shader = shader("pcf-blur tiles", include_str!("tiles.wgsl"));

@@ -43,7 +43,7 @@ const BUNDLE_SHADER: Shader = shader("bundle wedges", include_str!("bundle.wgsl"
 
 const CAPS_SHADER: Shader = shader("make caps", include_str!("caps.wgsl"));
 
-const DRAW_SHADER: Shader = shader("wedges", "// needs: draw, term_analytic");
+const DRAW_SHADER: Shader = shader("wedges", "// needs: draw, term_analytic").with_constants(targets::RECORDS);
 
 const RESOLVE_SHADER: Shader = shader("wedge visibility", include_str!("horizon_analytic.wgsl"));
 

@@ -5,7 +5,7 @@ use super::select::CHUNK;
 use crate::area_light::{AreaLight, scaled};
 use crate::receivers::Eye;
 use crate::fullscreen::{bind, target_texture};
-use crate::{error::Error, gpu::Gpu, receivers::Receivers, view::View};
+use crate::{error::Error, gpu::Gpu, receivers::Receivers, shader::HostConstant, view::View};
 
 /// Bytes of a record, see `record.wgsl`.
 const RECORD: u64 = 336;
@@ -17,6 +17,9 @@ pub(super) const BUNDLES: u64 = 40;
 /// Wedges in a bundle, and bytes of its record.
 const BUNDLE: u64 = 4;
 const BUNDLE_RECORD: u64 = 112;
+
+/// Both for `record.wgsl`.
+pub(super) const RECORDS: &[HostConstant] = &[("Wedge", RECORD as f64), ("Bundle", BUNDLE_RECORD as f64)];
 
 /// Bytes of the caps of a chunk, see `record.wgsl`.
 const CAPS: usize = 128 * CHUNK as usize;
