@@ -13,8 +13,6 @@ const GROUP: u32 = 64u;
 
 // Depth that is behind everything.
 override FAR: f32 = 0.0;
-// Bodies are cut in two.
-override HALVES: bool = false;
 
 fn place(caster: u32, vertex: u32) -> vec3f {
     let at = 3u * vertex;
@@ -25,7 +23,7 @@ fn place(caster: u32, vertex: u32) -> vec3f {
 fn no_wedge() -> Wedge {
     var wedge: Wedge;
     wedge.weights = vec2f(0.0);
-    for (var i = 0u; i < 8u; i++) {
+    for (var i = 0u; i < 6u; i++) {
         wedge.corners[i] = vec4f(4.0, 4.0, 0.0, 1.0);
     }
     return wedge;
@@ -43,14 +41,6 @@ fn everywhere(wedge: ptr<function, Wedge>) {
     (*wedge).corners[3] = vec4f(2.0, -2.0, FAR, 1.0);
     (*wedge).corners[0] = (*wedge).corners[2];
     (*wedge).corners[1] = (*wedge).corners[4];
-    undivided(wedge);
-}
-
-// All of the body is its front half.
-fn undivided(wedge: ptr<function, Wedge>) {
-    (*wedge).corners[6] = (*wedge).corners[3];
-    (*wedge).corners[7] = (*wedge).corners[5];
-    (*wedge).front_inside = 2.0;
 }
 
 // In light space; false where no such body holds the wedge.
@@ -109,18 +99,10 @@ fn body(a: vec3f, b: vec3f, wedge: ptr<function, Wedge>) -> bool {
     for (var i = 0u; i < 6u; i++) {
         (*wedge).corners[i] = corners[i];
     }
-    if HALVES {
-        halve(wedge, array<vec3f, 2>(low, high), starts, front + back + low + high, end, rays[0]);
-    }
     return true;
 }
 
-// Of the plane through an edge and the place where its silhouette is seen from, in light space.
-fn normal_of(seen_from: vec3f, start: vec3f, end: vec3f) -> vec3f {
-    return normalize(cross(way_to(light, seen_from, start), end - start));
-}
-
-// The same plane relative to the eye, where differences are small near the eye and the light may be far away. Zero for an edge in line with the light, or
+// The plane through an edge and the place where its silhouette is seen from, relative to the eye, where differences are small near the eye and the light may be far away. Zero for an edge in line with the light, or
 // without length, which has no side.
 fn plane_of(wedge: ptr<function, Wedge>) -> vec4f {
     let start = (*wedge).eye_start;
@@ -136,20 +118,6 @@ fn plane_of(wedge: ptr<function, Wedge>) -> vec4f {
         place = seen_from;
     }
     return vec4f(normal, dot(normal, place));
-}
-
-// Cuts the body along the plane of the hard shadow.
-fn halve(wedge: ptr<function, Wedge>, across: array<vec3f, 2>, starts: array<vec3f, 2>, sum: vec3f, end: vec4f, front: vec3f) {
-    undivided(wedge);
-    if all((*wedge).plane.xyz == vec3f(0.0)) {
-        return;
-    }
-    let normal = normal_of((*wedge).anchor.place, (*wedge).start, (*wedge).end);
-    for (var i = 0u; i < 2u; i++) {
-        let way = from_light(light, ray(across[i], normal, sum));
-        (*wedge).corners[6u + i] = light.clip_from_eye * run(starts[i], way, end);
-    }
-    (*wedge).front_inside = f32(dot(normal, front) > 0.0);
 }
 
 // Of the sum of both sides of a body, which the list goes by, each one's part.

@@ -4,53 +4,26 @@
 
 mod budget;
 mod draws;
-mod groups;
+mod old_ways;
+mod one_draw;
 mod options;
 mod piece;
 mod pipelines;
+mod records;
 mod select;
+mod shaders;
+mod stages;
 mod tables;
 mod targets;
 mod technique;
 mod views;
+mod way;
 
 use crate::params::{Param, ParamKind};
-use crate::shader::{Module, Shader};
+use crate::shader::Shader;
 use crate::silhouettes::FIND_SHADER;
 use crate::technique::TechniqueInfo;
 use umbrage_core::LightKinds;
-
-/// What the shaders of this folder need of each other.
-const MODULES: &[Module] = &[
-    Module { name: "coverage", source: include_str!("coverage.wgsl") },
-    Module { name: "record", source: include_str!("record.wgsl") },
-    Module { name: "body", source: include_str!("body.wgsl") },
-    Module { name: "cell", source: include_str!("cell.wgsl") },
-    Module { name: "draw", source: include_str!("draw.wgsl") },
-    Module { name: "resolve", source: include_str!("resolve.wgsl") },
-    Module { name: "term_analytic", source: include_str!("term_analytic.wgsl") },
-    Module { name: "term_table", source: include_str!("term_table.wgsl") },
-    Module { name: "term_picture", source: include_str!("term_picture.wgsl") },
-];
-
-const fn shader(name: &'static str, source: &'static str) -> Shader {
-    Shader::new(name, source).with_modules(MODULES)
-}
-
-const MAKE_SHADER: Shader = shader("make wedges", include_str!("make.wgsl"));
-
-const BUNDLE_SHADER: Shader = shader("bundle wedges", include_str!("bundle.wgsl"));
-
-const CAPS_SHADER: Shader = shader("make caps", include_str!("caps.wgsl"));
-
-const DRAW_SHADER: Shader = shader("wedges", "// needs: draw, term_analytic").with_constants(targets::RECORDS);
-
-const RESOLVE_SHADER: Shader = shader("wedge visibility", include_str!("horizon_analytic.wgsl"));
-
-/// What a loop or a caster that was drawn apart comes to.
-const APART_SHADER: Shader = Shader::new("a loop's shares", include_str!("apart.wgsl"));
-
-const DEPTH_SHADER: Shader = shader("depth of wedges", include_str!("depth.wgsl"));
 
 const PARAMS: &[Param] = &[
     Param {
@@ -113,7 +86,7 @@ const PARAMS: &[Param] = &[
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
-    id: "wedges",
+    id: options::ID,
     title: "Penumbra wedges",
     summary: "Corrects hard shadow volumes by what every silhouette edge covers of the light: soft shadows without noise, exact \
               where the silhouette is the same from all of the light.",
@@ -123,21 +96,27 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     hard: false,
     params: PARAMS,
     views: views::NAMES,
-    shaders: &[
-        FIND_SHADER,
-        MAKE_SHADER,
-        BUNDLE_SHADER,
-        CAPS_SHADER,
-        DRAW_SHADER,
-        APART_SHADER,
-        DEPTH_SHADER,
-        RESOLVE_SHADER,
-        tables::TABLE_SHADER,
-        tables::PICTURE_SHADER,
-        tables::RESOLVE_PICTURE_SHADER,
-        views::VIEWS_SHADER,
-        views::BODIES_SHADER,
-    ],
+    shaders: SHADERS,
     readme: include_str!("README.md"),
     make: |gpu, settings| Ok(Box::new(technique::Wedges::new(gpu, settings)?)),
 };
+
+const SHADERS: &[Shader] = &[
+    FIND_SHADER,
+    shaders::MAKE,
+    shaders::BUNDLE,
+    shaders::CAPS,
+    shaders::DRAWS[0],
+    shaders::DRAWS[1],
+    shaders::DRAWS[2],
+    shaders::DEPTH,
+    shaders::RESOLVE,
+    shaders::RESOLVE_PICTURE,
+    shaders::VIEWS,
+    shaders::VIEW_BODIES,
+    old_ways::SHADERS[0],
+    old_ways::SHADERS[1],
+    old_ways::SHADERS[2],
+    old_ways::SHADERS[3],
+    old_ways::SHADERS[4],
+];

@@ -1,15 +1,12 @@
 //! Pipelines that build, count and draw wedges.
 
-use super::APART_SHADER;
-use super::BUNDLE_SHADER;
-use super::CAPS_SHADER;
-use super::DEPTH_SHADER;
-use super::MAKE_SHADER;
-use super::draws::Draw;
+use super::draws::{Draw, shares_format};
+use super::shaders;
+use super::stages::{Stages, compare};
 use super::tables::Term;
 use crate::area_light::Face;
 use crate::casters::Edges;
-use crate::fullscreen::{FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, layout, texture};
+use crate::fullscreen::{FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, layout};
 use crate::receivers::Receivers;
 use crate::shader::Shader;
 use crate::{gpu::Gpu, visibility::VisibilityTarget};
@@ -21,12 +18,9 @@ pub(super) struct Pipelines {
     pub bundle_layout: wgpu::BindGroupLayout,
     pub draw_layout: wgpu::BindGroupLayout,
     pub resolve_layout: wgpu::BindGroupLayout,
-    pub apart_layout: wgpu::BindGroupLayout,
     pub depth_layout: wgpu::BindGroupLayout,
     /// Of covered shares.
     pub format: wgpu::TextureFormat,
-    /// Of the sums of a loop, see `draw.wgsl`.
-    pub loop_format: wgpu::TextureFormat,
     pub clamps: bool,
     silhouettes: wgpu::BindGroupLayout,
     making: Made<Making, wgpu::ComputePipeline>,
@@ -49,7 +43,6 @@ pub(super) enum Making {
     Wedges {
         /// Near is 1.
         reversed: bool,
-        halves: bool,
     },
     /// Puts wedges together that are drawn as one.
     Bundles,
@@ -58,9 +51,9 @@ pub(super) enum Making {
 }
 
 /// A drawing pipeline.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 pub(super) struct Key {
-    pub draw: Draw,
+    pub draw: &'static Draw,
     /// Of what bodies are compared with, where there is something, and whether near is 1 in it.
     pub depth: Option<(wgpu::TextureFormat, bool)>,
     pub face: Face,
@@ -93,11 +86,6 @@ impl Pipelines {
             view_dimension: wgpu::TextureViewDimension::D2Array,
             multisampled: false,
         };
-        // Sums of many small terms.
-        let blends = gpu.has(wgpu::Features::FLOAT32_BLENDABLE);
-        use wgpu::TextureFormat as Format;
-        let (format, loop_format) =
-            if blends { (Format::Rg32Float, Format::Rgba32Float) } else { (Format::Rg16Float, Format::Rgba16Float) };
         Self {
             make_layout: layout(gpu, "make wedges", compute, &[UNIFORM, STORAGE_WRITE, STORAGE_WRITE]),
             caps_layout: layout(gpu, "make caps", compute, &[UNIFORM, STORAGE, STORAGE_WRITE]),
@@ -109,10 +97,8 @@ impl Pipelines {
             ),
             draw_layout: layout(gpu, "wedges", both, &[UNIFORM, UNIFORM, STORAGE, STORAGE, STORAGE, STORAGE]),
             resolve_layout: layout(gpu, "covered shares", fragment, &[UNIFORM, UNIFORM, layers, UNIFORM]),
-            apart_layout: layout(gpu, "a loop's shares", fragment, &[texture(FLOATS), STORAGE]),
             depth_layout: layout(gpu, "depth of wedges", fragment, &[UNIFORM]),
-            format,
-            loop_format,
+            format: shares_format(gpu),
             clamps: gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL),
             silhouettes: silhouettes.clone(),
             making: Vec::new(),
@@ -128,16 +114,16 @@ impl Pipelines {
             return;
         }
         let made = match key {
-            Making::Wedges { reversed, halves } => {
+            Making::Wedges { reversed } => {
                 let far = if reversed { 0.0 } else { 1.0 };
-                let constants = [("FAR", far), ("HALVES", on(halves))];
+                let constants = [("FAR", far)];
                 let groups = [&self.silhouettes, &Edges::make_edges_layout(gpu), &self.make_layout];
-                compute(gpu, &MAKE_SHADER, &groups, &constants)
+                compute(gpu, &shaders::MAKE, &groups, &constants)
             }
-            Making::Bundles => compute(gpu, &BUNDLE_SHADER, &[&self.bundle_layout], &[]),
+            Making::Bundles => compute(gpu, &shaders::BUNDLE, &[&self.bundle_layout], &[]),
             Making::Caps => {
                 let groups = [&self.silhouettes, &Edges::make_triangles_layout(gpu), &self.caps_layout];
-                compute(gpu, &CAPS_SHADER, &groups, &[])
+                compute(gpu, &shaders::CAPS, &groups, &[])
             }
         };
         self.making.push((key, made));
@@ -151,8 +137,7 @@ impl Pipelines {
     /// Makes a drawing pipeline where it is missing.
     pub fn prepare(&mut self, gpu: &Gpu, key: Key) {
         if self.drawing(key).is_none() {
-            let made = if key.draw.is_apart() { self.apart(gpu, key) } else { self.draw(gpu, key) };
-            self.drawing.push((key, made));
+            self.drawing.push((key, self.draw(gpu, key)));
         }
     }
 
@@ -191,7 +176,7 @@ impl Pipelines {
     /// Makes the pipeline that copies depth where it is missing.
     pub fn prepare_depth(&mut self, gpu: &Gpu, format: wgpu::TextureFormat) {
         if self.depth(format).is_none() {
-            let module = DEPTH_SHADER.module(gpu);
+            let module = shaders::DEPTH.module(gpu);
             let groups = [&Receivers::layout(gpu), &self.depth_layout];
             let depth = wgpu::DepthStencilState {
                 format,
@@ -211,8 +196,9 @@ impl Pipelines {
     }
 
     fn draw(&self, gpu: &Gpu, key: Key) -> wgpu::RenderPipeline {
-        let how = key.draw.how();
-        let module = key.term.draw_shader().module(gpu);
+        let how = key.draw;
+        let module = (how.shader)(key.term).module(gpu);
+        let (receivers, tables) = (Receivers::layout(gpu), key.term.layout(gpu));
         let vertex_constants = [("CLAMPS", on(self.clamps))];
         let fragment_constants = [("FACE", f64::from(key.face as u32)), ("SPLIT", on(key.split))];
         let stages = Stages {
@@ -229,19 +215,14 @@ impl Pipelines {
             stencil: how.stencil.clone(),
             bias: Default::default(),
         });
-        let groups = [&Receivers::layout(gpu), &self.draw_layout, &key.term.layout(gpu)];
-        stages.pipeline(gpu, &groups, depth, Some(how.target(self)))
-    }
-
-    fn apart(&self, gpu: &Gpu, key: Key) -> wgpu::RenderPipeline {
-        let how = key.draw.how();
-        let module = APART_SHADER.module(gpu);
-        let stages = Stages::new(&module, how.vertex, how.fragment);
-        stages.pipeline(gpu, &[&self.apart_layout], None, Some(how.target(self)))
+        let more = how.more.map(|layout| layout(gpu));
+        let mut groups = vec![&receivers, &self.draw_layout, &tables];
+        groups.extend(&more);
+        stages.pipeline(gpu, &groups, depth, Some((how.target)(gpu)))
     }
 }
 
-fn compute(
+pub(super) fn compute(
     gpu: &Gpu,
     shader: &Shader,
     groups: &[&wgpu::BindGroupLayout],
@@ -259,73 +240,4 @@ fn compute(
         compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
         cache: None,
     })
-}
-
-/// What is behind all of a body is in no wedge.
-pub(super) fn compare(tests: bool, reversed: bool) -> wgpu::CompareFunction {
-    match (tests, reversed) {
-        (false, _) => wgpu::CompareFunction::Always,
-        (true, true) => wgpu::CompareFunction::LessEqual,
-        (true, false) => wgpu::CompareFunction::GreaterEqual,
-    }
-}
-
-/// Shaders of a render pipeline and what comes between them.
-struct Stages<'a> {
-    module: &'a wgpu::ShaderModule,
-    vertex: &'a str,
-    fragment: &'a str,
-    vertex_constants: &'a [(&'a str, f64)],
-    fragment_constants: &'a [(&'a str, f64)],
-    cull_mode: Option<wgpu::Face>,
-    unclipped_depth: bool,
-}
-
-impl<'a> Stages<'a> {
-    fn new(module: &'a wgpu::ShaderModule, vertex: &'a str, fragment: &'a str) -> Self {
-        let (vertex_constants, fragment_constants): (&[_], &[_]) = (&[], &[]);
-        let (cull_mode, unclipped_depth) = (None, false);
-        Self { module, vertex, fragment, vertex_constants, fragment_constants, cull_mode, unclipped_depth }
-    }
-
-    fn pipeline(
-        &self,
-        gpu: &Gpu,
-        groups: &[&wgpu::BindGroupLayout],
-        depth_stencil: Option<wgpu::DepthStencilState>,
-        target: Option<wgpu::ColorTargetState>,
-    ) -> wgpu::RenderPipeline {
-        let groups: Vec<_> = groups.iter().map(|g| Some(*g)).collect();
-        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &groups,
-            ..Default::default()
-        });
-        let options = |constants| wgpu::PipelineCompilationOptions { constants, ..Default::default() };
-        let targets: Vec<_> = target.into_iter().map(Some).collect();
-        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(self.fragment),
-            layout: Some(&layout),
-            vertex: wgpu::VertexState {
-                module: self.module,
-                entry_point: Some(self.vertex),
-                compilation_options: options(self.vertex_constants),
-                buffers: &[],
-            },
-            primitive: wgpu::PrimitiveState {
-                cull_mode: self.cull_mode,
-                unclipped_depth: self.unclipped_depth,
-                ..Default::default()
-            },
-            depth_stencil,
-            multisample: Default::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: self.module,
-                entry_point: Some(self.fragment),
-                compilation_options: options(self.fragment_constants),
-                targets: &targets,
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
-    }
 }

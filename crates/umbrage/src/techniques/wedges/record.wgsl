@@ -6,8 +6,7 @@ struct Wedge {
     // 1 where the eye is on the side of the edge's hard shadow, else 0.
     eye_inside: f32,
     eye_end: vec3f,
-    // 1 where the front half is on the side of the hard shadow, else 0; 2 where it is all of the body.
-    front_inside: f32,
+    pad_end: f32,
     // In light space.
     start: vec3f,
     // 1 where the hard shadow is counted from infinity, 0 where from the eye.
@@ -24,9 +23,8 @@ struct Wedge {
     dark: vec4f,
     // Inside is n · p ≥ w, in light space.
     planes: array<vec4f, 4>,
-    // Corners in clip space: the near ones, then for each of them those of the front and the back face; then those between, in the plane of the hard
-    // shadow, if bodies are cut in two there.
-    corners: array<vec4f, 8>,
+    // Corners in clip space: the near ones, then for each of them those of the front and the back face.
+    corners: array<vec4f, 6>,
     anchor: Anchor,
 }
 

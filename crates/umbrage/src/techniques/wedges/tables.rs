@@ -1,8 +1,6 @@
 //! Shares of a light that shaders look up: those of a disc, where tables are asked for, and those of pictures.
 
-use super::DRAW_SHADER;
-use super::RESOLVE_SHADER;
-use super::shader;
+use super::shaders;
 use crate::area_light::{Face, Form};
 use crate::fullscreen::{STORAGE, bind, layout};
 use crate::gpu::Gpu;
@@ -14,18 +12,6 @@ use umbrage_core::glam::DVec2;
 use umbrage_core::sampling::Luminance;
 use umbrage_core::{LightShape, Texture};
 use wgpu::util::DeviceExt;
-
-/// `DRAW_SHADER` with [`Term::Table`].
-pub(super) const TABLE_SHADER: Shader =
-    shader("wedges by table", "// needs: draw, term_table");
-
-/// `DRAW_SHADER` with [`Term::Picture`].
-pub(super) const PICTURE_SHADER: Shader =
-    shader("wedges of a picture", "// needs: draw, term_picture");
-
-/// `RESOLVE_SHADER` with [`Term::Picture`].
-pub(super) const RESOLVE_PICTURE_SHADER: Shader =
-    shader("wedge visibility of a picture", include_str!("horizon_picture.wgsl"));
 
 /// Values along each axis of a disc's table (PX 4.2).
 const DISC_SIDE: usize = 32;
@@ -51,16 +37,12 @@ pub(super) enum Term {
 impl Term {
     /// What draws wedges.
     pub fn draw_shader(self) -> Shader {
-        match self {
-            Self::Analytic => DRAW_SHADER,
-            Self::Table => TABLE_SHADER,
-            Self::Picture => PICTURE_SHADER,
-        }
+        shaders::DRAWS[self as usize]
     }
 
     /// What makes visibility; discs have their horizon in closed form.
     pub fn resolve_shader(self) -> Shader {
-        if self == Self::Picture { RESOLVE_PICTURE_SHADER } else { RESOLVE_SHADER }
+        if self == Self::Picture { shaders::RESOLVE_PICTURE } else { shaders::RESOLVE }
     }
 
     /// Of group 2; unused by formulas.

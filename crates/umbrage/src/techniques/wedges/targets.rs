@@ -1,31 +1,19 @@
 //! Buffers and textures of a light's wedges.
 
 use super::pipelines::Pipelines;
+use super::records::{BUNDLE, BUNDLE_RECORD, CAP_RECORD, GROUP, RECORD};
 use super::select::CHUNK;
 use crate::area_light::{AreaLight, scaled};
 use crate::receivers::Eye;
 use crate::fullscreen::{bind, target_texture};
-use crate::{error::Error, gpu::Gpu, receivers::Receivers, shader::HostConstant, view::View};
-
-/// Bytes of a record, see `record.wgsl`.
-const RECORD: u64 = 336;
+use crate::{error::Error, gpu::Gpu, receivers::Receivers, view::View};
 
 /// Where in [`Buffers::bodies`] the arguments of the draws of single wedges and of bundles are.
 pub(super) const SINGLES: u64 = 20;
 pub(super) const BUNDLES: u64 = 40;
 
-/// Wedges in a bundle, and bytes of its record.
-const BUNDLE: u64 = 4;
-const BUNDLE_RECORD: u64 = 112;
-
-/// Both for `record.wgsl`.
-pub(super) const RECORDS: &[HostConstant] = &[("Wedge", RECORD as f64), ("Bundle", BUNDLE_RECORD as f64)];
-
-/// Bytes of the caps of a chunk, see `record.wgsl`.
-const CAPS: usize = 128 * CHUNK as usize;
-
-/// Wedges that an instance draws, see `draw.wgsl`.
-pub(super) const GROUP: u32 = 64;
+/// Bytes of the caps of a chunk.
+const CAPS: usize = CAP_RECORD as usize * CHUNK as usize;
 
 /// Numbers of things that buffers have to hold.
 #[derive(Clone, Copy, Debug)]
@@ -33,8 +21,6 @@ pub(super) struct Needs {
     pub wedges: u32,
     /// Chunks of triangles that are drawn.
     pub caps: u32,
-    /// Casters that are drawn apart, and one for all others.
-    pub slots: u32,
 }
 
 /// What grows with casters, of one piece of a light.
@@ -48,7 +34,6 @@ pub(super) struct Buffers {
     pub singles: wgpu::Buffer,
     pub cap_chunks: wgpu::Buffer,
     pub caps: wgpu::Buffer,
-    pub eye_count: wgpu::Buffer,
     pub make: wgpu::BindGroup,
     pub bundle: wgpu::BindGroup,
     pub make_caps: wgpu::BindGroup,
@@ -89,7 +74,6 @@ impl Buffers {
         };
         let cap_chunks = some("chunks of caps", needs.caps, 8, Usage::empty());
         let caps = some("caps", needs.caps, CAPS, Usage::empty());
-        let eye_count = some("shadows of the eye", needs.slots, 8, Usage::empty());
         let all = |buffers: &[&wgpu::Buffer], layout| {
             let entries: Vec<_> = buffers.iter().map(|b| b.as_entire_binding()).collect();
             bind(gpu, "wedges", layout, &entries)
@@ -108,7 +92,6 @@ impl Buffers {
             singles,
             cap_chunks,
             caps,
-            eye_count,
         })
     }
 
@@ -116,11 +99,10 @@ impl Buffers {
         self.wedges.size() >= u64::from(needs.wedges.next_multiple_of(GROUP)) * RECORD
             && self.cap_chunks.size() >= u64::from(needs.caps) * 8
             && self.caps.size() >= u64::from(needs.caps) * CAPS as u64
-            && self.eye_count.size() >= u64::from(needs.slots) * 8
     }
 
     pub fn bytes(&self) -> u64 {
-        let small = [&self.light, &self.eye, &self.bodies, &self.cap_chunks, &self.eye_count];
+        let small = [&self.light, &self.eye, &self.bodies, &self.cap_chunks];
         small.into_iter().chain([&self.wedges, &self.caps, &self.bundles, &self.singles]).map(|b| b.size()).sum()
     }
 }
@@ -154,12 +136,8 @@ pub(super) struct TargetKey {
     pub size: (u32, u32),
     pub scale: u32,
     pub pieces: u32,
-    /// Stencil masks are drawn.
-    pub stencil: bool,
-    /// Loops or casters are drawn apart, into this.
-    pub apart: Option<wgpu::TextureFormat>,
-    /// The receivers' depth is copied, since masks go into its stencil or it is not of this size.
-    pub copies_depth: bool,
+    /// Of a copy of the receivers' depth, where theirs can't be drawn against.
+    pub own_depth: Option<wgpu::TextureFormat>,
 }
 
 /// Where covered shares add up.
@@ -168,9 +146,7 @@ pub(super) struct Target {
     /// Of each piece.
     pub layers: Vec<wgpu::TextureView>,
     pub resolve: wgpu::BindGroup,
-    /// Where the sums of a loop or a caster add up.
-    pub apart: Option<wgpu::TextureView>,
-    /// The receivers' depth at this scale, and with stencil if masks are drawn.
+    /// The receivers' depth at this scale.
     pub own_depth: Option<wgpu::TextureView>,
     bytes: u64,
 }
@@ -206,15 +182,13 @@ impl Target {
         let pixels = u64::from(size.0) * u64::from(size.1);
         // A stencil aspect has no copy size of its own with the depth: 8 bytes a pixel are what drivers take.
         let bytes_of = |format: wgpu::TextureFormat| pixels * u64::from(format.block_copy_size(None).unwrap_or(8));
-        let view = |label, format| target_texture(gpu, label, size, 1, format).create_view(&Default::default());
-        let depth_format = key.copies_depth.then(|| own_depth_format(gpu, key.stencil));
+        let depth = |format| target_texture(gpu, "depth of wedges", size, 1, format).create_view(&Default::default());
         let shares = u64::from(key.pieces) * bytes_of(pipelines.format);
         Self {
             layers: (0..key.pieces).map(layer).collect(),
             resolve,
-            apart: key.apart.map(|format| view("shares of a loop", format)),
-            own_depth: depth_format.map(|format| view("depth of wedges", format)),
-            bytes: shares + [key.apart, depth_format].into_iter().flatten().map(bytes_of).sum::<u64>(),
+            own_depth: key.own_depth.map(depth),
+            bytes: shares + key.own_depth.map_or(0, bytes_of),
             key,
         }
     }
@@ -224,16 +198,12 @@ impl Target {
         self.own_depth.as_ref().or_else(|| lent_depth(view.receivers))
     }
 
+    pub fn size(&self) -> (u32, u32) {
+        scaled(self.key.size, self.key.scale)
+    }
+
     pub fn bytes(&self) -> u64 {
         self.bytes
-    }
-}
-
-fn own_depth_format(gpu: &Gpu, stencil: bool) -> wgpu::TextureFormat {
-    match stencil {
-        false => wgpu::TextureFormat::Depth32Float,
-        true if gpu.has(wgpu::Features::DEPTH32FLOAT_STENCIL8) => wgpu::TextureFormat::Depth32FloatStencil8,
-        true => wgpu::TextureFormat::Depth24PlusStencil8,
     }
 }
 

@@ -1,29 +1,20 @@
 //! A frame: choose casters, find silhouettes, build wedges, add up what they cover, resolve.
 
 use super::budget::Budget;
-use super::draws::Draw;
-use super::options::Options;
-use super::piece::Piece;
-use super::piece::Recording;
-use super::piece::is_reversed;
-use super::pipelines::Key;
-use super::pipelines::Pipelines;
-use super::pipelines::Resolve;
-use super::tables::Tables;
-use super::tables::Term;
-use super::targets::Buffers;
-use super::targets::GROUP;
-use super::targets::MOST_PIECES;
-use super::targets::Target;
-use super::targets::TargetKey;
-use super::targets::Whole;
-use super::targets::lent_depth;
-use super::views::Drawn;
-use super::views::Views;
+use super::draws;
+use super::old_ways;
+use super::one_draw::OneDraw;
+use super::options::{ID, Options};
+use super::piece::{Piece, is_reversed};
+use super::pipelines::{Key, Pipelines, Resolve};
+use super::tables::{Tables, Term};
+use super::records::GROUP;
+use super::targets::{Buffers, MOST_PIECES, Target, TargetKey, Whole, lent_depth};
+use super::views::{Drawn, Views};
+use super::way::{Recording, Way};
 use crate::area_light::{Face, Form, Frame, ROUNDING, is_on_a_caster};
 use crate::casters::Edges;
 use crate::receivers::Eye;
-use crate::fullscreen::bind;
 use crate::params::Settings;
 use crate::silhouettes::Part;
 use crate::technique::{DebugView, Stats, Technique};
@@ -32,6 +23,7 @@ use umbrage_core::glam::DVec3;
 
 pub(super) struct Wedges {
     options: Options,
+    way: Box<dyn Way>,
     pipelines: Option<Pipelines>,
     body_indices: wgpu::Buffer,
     whole: Whole,
@@ -39,8 +31,6 @@ pub(super) struct Wedges {
     pieces: Vec<Piece>,
     /// One for each scale that may come up.
     targets: Vec<Target>,
-    /// Reads what a loop or a caster came to, with what it was made of.
-    apart: Vec<(wgpu::TextureView, wgpu::Buffer, wgpu::BindGroup)>,
     budget: Budget,
     tables: Tables,
     casting: u32,
@@ -55,17 +45,18 @@ const FACES: [u16; 24] = [5, 4, 2, 5, 2, 3, 1, 0, 2, 1, 2, 4, 0, 1, 5, 0, 5, 3, 
 impl Wedges {
     pub fn new(gpu: &Gpu, settings: &Settings) -> Result<Self, Error> {
         let options = Options::new(gpu, settings)?;
+        let one_draw = || Box::new(OneDraw { is_split: options.split > 1 }) as Box<dyn Way>;
         let indices: Vec<u16> = (0..GROUP as u16).flat_map(|i| FACES.map(|corner| i * 6 + corner)).collect();
         Ok(Self {
+            way: old_ways::way(gpu, settings)?.unwrap_or_else(one_draw),
             pipelines: None,
             body_indices: gpu.buffer("corners of wedges", &indices, wgpu::BufferUsages::INDEX),
             whole: Whole::new(gpu),
             form: None,
             pieces: Vec::new(),
             targets: Vec::new(),
-            apart: Vec::new(),
             budget: Budget::new(options.budget_ms, options.scale),
-            tables: Tables::new(gpu, settings.choice("coverage") == "table"),
+            tables: Tables::new(gpu, options.table),
             casting: 0,
             draws: 0,
             gpu: gpu.clone(),
@@ -88,7 +79,7 @@ impl Wedges {
             }
             match self.pieces.get_mut(i) {
                 Some(piece) => piece.form = form,
-                None => self.pieces.push(Piece::new(gpu, form, &self.options)),
+                None => self.pieces.push(Piece::new(gpu, form, self.way.extrude())),
             }
             let piece = &mut self.pieces[i];
             piece.term = self.tables.term_of(&piece.form);
@@ -103,49 +94,28 @@ impl Wedges {
         let scales = self.scales();
         let pipelines = self.pipelines.get_or_insert_with(|| Pipelines::new(gpu, layout));
         for piece in &mut self.pieces {
-            piece.prepare(gpu, view, pipelines, &self.options)?;
+            piece.prepare(gpu, view, pipelines, self.way.bundles())?;
         }
         self.targets.truncate(scales.len());
         for (i, scale) in scales.iter().enumerate() {
             let scale = effective(view.receivers.size, *scale);
+            let scaled_depth = (scale > 1).then_some(wgpu::TextureFormat::Depth32Float);
             let key = TargetKey {
                 size: view.receivers.size,
                 scale,
                 pieces: self.pieces.len() as u32,
-                stencil: self.options.stencil,
-                apart: self.options.apart_format(pipelines),
-                copies_depth: self.options.stencil || scale > 1,
+                own_depth: self.way.depth_format().or(scaled_depth),
             };
             if self.targets.get(i).is_none_or(|t| t.key != key) {
                 self.targets.truncate(i);
                 self.targets.push(Target::new(gpu, pipelines, key, &self.whole));
             }
-            let resolve = resolve_key(view, form, self.tables.term(form.face), &self.targets[i]);
-            prepare_pipelines(gpu, view, resolve, pipelines, &self.targets[i], &self.pieces, &self.options);
-        }
-        self.prepare_apart(gpu);
-        Ok(())
-    }
-
-    /// Bind groups that read loops or casters which were drawn apart.
-    fn prepare_apart(&mut self, gpu: &Gpu) {
-        let Some(pipelines) = &self.pipelines else { return };
-        let mut kept = Vec::new();
-        for sums in self.targets.iter().filter_map(|t| t.apart.as_ref()) {
-            for buffers in self.pieces.iter().filter_map(|p| p.buffers.as_ref()) {
-                let counts = &buffers.eye_count;
-                let found = self.apart.iter().position(|(s, c, _)| s == sums && c == counts);
-                kept.push(found.map_or_else(
-                    || {
-                        let resources = [wgpu::BindingResource::TextureView(sums), counts.as_entire_binding()];
-                        let made = bind(gpu, "a loop's shares", &pipelines.apart_layout, &resources);
-                        (sums.clone(), counts.clone(), made)
-                    },
-                    |at| self.apart[at].clone(),
-                ));
+            if let Some(format) = key.own_depth {
+                pipelines.prepare_depth(gpu, format);
             }
+            pipelines.prepare_resolve(gpu, resolve_key(view, form, self.tables.term(form.face), &self.targets[i]));
         }
-        self.apart = kept;
+        self.way.prepare(gpu, view, &self.pieces, &self.targets, pipelines)
     }
 
     /// Scales that may come up. Debug views are of the size of the picture.
@@ -173,16 +143,14 @@ impl Wedges {
         let mut draws = 0;
         for (i, piece) in self.pieces.iter().enumerate() {
             let Some(buffers) = &piece.buffers else { continue };
-            let apart = self.apart.iter().find(|(s, c, _)| Some(s) == target.apart.as_ref() && *c == buffers.eye_count);
-            let apart = apart.map(|(.., group)| group);
-            let (options, body_indices) = (&self.options, &self.body_indices);
+            let body_indices = &self.body_indices;
             let tables = self.tables.group_of_piece(piece.term, i);
-            let recording = Recording { options, pipelines, target, body_indices, tables, apart };
-            piece.build(passes, view, edges, &recording);
+            let recording = Recording { pipelines, target, body_indices, tables };
+            piece.build(passes, view, edges, self.way.bundles(), &recording);
             if i == 0 {
                 draws += copy_depth(passes, view, pipelines, target, buffers);
             }
-            draws += piece.add_up(passes, view, i, &recording);
+            draws += self.way.add_up(passes, view, i, piece, &recording);
         }
         self.upload(passes, view, form, target);
         let mut pass = passes.render("visibility", &[visibility.overwrite()], None);
@@ -213,8 +181,8 @@ impl Wedges {
         Some(Drawn {
             pieces: self.pieces.iter().filter_map(|p| p.buffers.as_ref()).collect(),
             indices: &self.body_indices,
-            key: Key { depth: compared_depth(view), ..piece.key(view, Draw::Bodies, target) },
-            bundles: self.options.bundles(),
+            key: Key { depth: compared_depth(view), ..piece.key(view, &draws::BODIES, target) },
+            bundles: self.way.bundles(),
             tables: self.tables.group_of_piece(piece.term, 0),
             layout: &self.pipelines.as_ref()?.draw_layout,
             shares: (resolve, &target.resolve, &self.pipelines.as_ref()?.resolve_layout),
@@ -225,8 +193,8 @@ impl Wedges {
     fn upload(&self, passes: &mut Passes<'_>, view: &View<'_>, form: &Form, target: &Target) {
         let frame = Frame { rounding: ROUNDING, cap_chunks: 0, scale: target.key.scale };
         let mut pieces = [[0.0; 4]; MOST_PIECES];
-        for (record, piece) in pieces.iter_mut().zip(&self.pieces) {
-            *record = piece.record();
+        for (i, (record, piece)) in pieces.iter_mut().zip(&self.pieces).enumerate() {
+            *record = piece.record(self.way.shadows_of_eye(i, piece));
         }
         passes.upload(&self.whole.light, bytemuck::bytes_of(&form.uniform(view, &frame)));
         passes.upload(&self.whole.eye, bytemuck::bytes_of(&Eye::new(view)));
@@ -248,26 +216,6 @@ fn resolve_key(view: &View<'_>, form: &Form, term: Term, target: &Target) -> Res
         pieces: target.key.pieces,
         scaled: target.key.scale > 1,
     }
-}
-
-fn prepare_pipelines(
-    gpu: &Gpu,
-    view: &View<'_>,
-    resolve: Resolve,
-    pipelines: &mut Pipelines,
-    target: &Target,
-    pieces: &[Piece],
-    options: &Options,
-) {
-    if let Some(piece) = pieces.first() {
-        for draw in options.draws() {
-            pipelines.prepare(gpu, piece.key(view, *draw, target));
-        }
-    }
-    if let Some(depth) = &target.own_depth {
-        pipelines.prepare_depth(gpu, depth.texture().format());
-    }
-    pipelines.prepare_resolve(gpu, resolve);
 }
 
 /// Of the receivers' own depth, where it can be attached, the format and whether near is 1.
@@ -304,7 +252,7 @@ impl Technique for Wedges {
     fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
         if view.camera.clip_from_view.row(3).truncate() == DVec3::ZERO {
             let what = "parallel projections, since shadows are counted from the eye; choose `volume` or a map".into();
-            return Err(Error::Unsupported { technique: super::INFO.id.into(), what });
+            return Err(Error::Unsupported { technique: ID.into(), what });
         }
         let has_picture = self.tables.prepare(gpu, view, self.options.split);
         let mut form = Form::of(&view.light.shape, has_picture, self.options.point_radius);
@@ -342,7 +290,7 @@ impl Technique for Wedges {
             triangles: sides * 10,
             casters_drawn: thrown,
             casters_culled: self.casting.saturating_sub(thrown),
-            bytes: pieces + targets + self.tables.bytes() + self.body_indices.size(),
+            bytes: pieces + targets + self.way.bytes() + self.tables.bytes() + self.body_indices.size(),
         }
     }
 

@@ -1,25 +1,17 @@
 //! Pictures of what happens inside: bodies, penumbras, overdraw, and what wedges add to the hard shadow.
 
-use super::pipelines::Key;
-use super::pipelines::Resolve;
-use super::pipelines::compare;
-use super::shader;
-use super::targets::{BUNDLES, Buffers, GROUP, SINGLES, lent_depth};
+use super::pipelines::{Key, Resolve};
+use super::shaders;
+use super::stages::compare;
+use super::records::GROUP;
+use super::targets::{BUNDLES, Buffers, SINGLES, lent_depth};
 use crate::receivers::Eye;
 use crate::fullscreen::{FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout, target_texture, texture};
-use crate::shader::Shader;
 use crate::technique::DebugView;
 use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View, visibility::VisibilityTarget};
 
 /// What can be asked for.
 pub(super) const NAMES: &[&str] = &["wireframe", "wedges", "penumbra", "overdraw", "fragments", "correction", "pieces"];
-
-/// Colours of every pixel's numbers; an entry for each name.
-pub(super) const VIEWS_SHADER: Shader = Shader::new("views of wedges", include_str!("views.wgsl"));
-
-/// Bodies of wedges as numbers. What an edge crosses goes by the formula whatever is asked for, since it is the same.
-pub(super) const BODIES_SHADER: Shader =
-    shader("bodies of wedges", include_str!("view_bodies.wgsl"));
 
 const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
@@ -159,7 +151,7 @@ impl Views {
         if self.base.as_ref().is_none_or(|(has, _)| *has != has_normals) {
             let made = Fullscreen {
                 label: self.name,
-                module: &VIEWS_SHADER.module(&self.gpu),
+                module: &shaders::VIEWS.module(&self.gpu),
                 entry: self.name,
                 groups: &[&Receivers::layout(&self.gpu), &self.layout],
                 target: COLOR.into(),
@@ -211,7 +203,7 @@ impl Views {
 
     fn bodies(&self, drawn: &Drawn<'_>, vertex: &str) -> wgpu::RenderPipeline {
         let (gpu, key, entry) = (&self.gpu, drawn.key, self.entry());
-        let shader = if entry == "add_wedge" { key.term.draw_shader() } else { BODIES_SHADER };
+        let shader = if entry == "add_wedge" { key.term.draw_shader() } else { shaders::VIEW_BODIES };
         let module = &shader.module(gpu);
         let groups = [Some(&Receivers::layout(gpu)), Some(drawn.layout), Some(&key.term.layout(gpu))];
         let groups = wgpu::PipelineLayoutDescriptor { bind_group_layouts: &groups, ..Default::default() };

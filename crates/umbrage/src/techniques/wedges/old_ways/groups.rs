@@ -1,9 +1,8 @@
 //! What is drawn one by one: convex loops (PX 4.4), or casters.
 
-use super::draws::Draw;
-use super::options::Combine;
-use super::options::Options;
-use super::select::Selection;
+use super::super::draws::{self, Draw};
+use super::super::select::Selection;
+use super::draws::{LOOP_BODIES, LOOP_SIDES};
 use crate::casters::{Casters, Edges};
 use crate::silhouettes::{Silhouettes, Throw};
 use std::collections::HashMap;
@@ -12,39 +11,36 @@ use umbrage_core::glam::{Vec3, Vec4};
 use umbrage_core::silhouette::light_in_mesh;
 
 /// Wedges of one caster.
-#[derive(Clone, Debug)]
 pub(super) struct Group {
     pub wedges: Range<u32>,
     /// Chunks of its surface that are drawn, see `caps.wgsl`.
     pub caps: Range<u32>,
     /// Sides and bodies.
-    pub draws: [Draw; 2],
-    /// Where the eye's shadows count, see [`Piece`](super::piece::Piece); 0 for what is drawn right into the sum.
+    pub draws: [&'static Draw; 2],
+    /// Of the shadows that the eye is in those that count with it; 0 for what is drawn right into the sum.
     pub slot: u32,
-    /// What adds it to the sum, if it is drawn apart.
-    pub transfer: Option<Draw>,
 }
 
-/// A group for each caster, in order: one by one, for their largest share; or those whose silhouette is one convex loop, all others as they are.
+/// A group for each caster, in order: those whose silhouette is one convex loop are drawn apart, or `all` are.
 pub(super) fn find_groups(
     casters: &Casters,
     silhouettes: &Silhouettes,
     selection: &Selection,
-    options: &Options,
+    all: bool,
     groups: &mut Vec<Group>,
 ) {
+    groups.clear();
     let Some(edges) = casters.made_edges() else { return };
     for ((caster, throw), wedges) in (0_u32..).zip(&selection.throws).zip(silhouettes.sides()) {
-        let caps = selection.caps_of(caster);
-        let (draws, transfer) = if options.combine == Combine::Max {
-            ([Draw::Sides, Draw::Bodies], Some(Draw::Most))
-        } else if caps.is_empty() && is_convex_loop(casters, edges, silhouettes, throw, caster, wedges.clone()) {
-            ([Draw::LoopSides, Draw::LoopBodies], Some(Draw::Loop))
-        } else {
-            ([Draw::Sides, Draw::Bodies], None)
+        let (caps, wedges) = (selection.caps_of(caster), wedges.clone());
+        let is_loop =
+            || caps.is_empty() && is_convex_loop(casters, edges, silhouettes, throw, caster, wedges.clone());
+        let (draws, is_apart): ([&'static Draw; 2], _) = match all {
+            false if is_loop() => ([&LOOP_SIDES, &LOOP_BODIES], true),
+            _ => ([&draws::SIDES, &draws::BODIES], all),
         };
-        let slot = if transfer.is_some() { groups.len() as u32 + 1 } else { 0 };
-        groups.push(Group { wedges: wedges.clone(), caps, draws, slot, transfer });
+        let slot = if is_apart { groups.len() as u32 + 1 } else { 0 };
+        groups.push(Group { wedges, caps, draws, slot });
     }
 }
 
