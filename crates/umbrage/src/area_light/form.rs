@@ -1,5 +1,6 @@
 //! The form of a light: what it looks like, in a space of its own, and its pieces.
 
+use crate::shader::HostConstant;
 use crate::view::off_ties;
 use umbrage_core::LightShape;
 use umbrage_core::coverage::Cell;
@@ -14,6 +15,16 @@ pub(crate) enum Face {
     Line = 3,
     Picture = 4,
 }
+
+/// What shaders call faces, and what else they share.
+pub(super) const CONSTANTS: &[HostConstant] = &[
+    ("SPHERE", Face::Sphere as u32 as f64),
+    ("DISC", Face::Disc as u32 as f64),
+    ("SQUARE", Face::Square as u32 as f64),
+    ("LINE", Face::Line as u32 as f64),
+    ("PICTURE", Face::Picture as u32 as f64),
+    ("LINE_WIDTH", LINE_WIDTH as f32 as f64),
+];
 
 /// A light's form.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +49,7 @@ pub(crate) struct Form {
 const SQUARE: [DVec3; 4] =
     [DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, -1.0, 0.0), DVec3::new(-1.0, -1.0, 0.0), DVec3::new(-1.0, 1.0, 0.0)];
 
-/// How wide a line is taken to be, as a share of its length; the shader has the same.
+/// How wide a line is taken to be, as a share of its length.
 const LINE_WIDTH: f64 = 1e-3;
 
 /// What all lights start with.

@@ -12,7 +12,7 @@ pub(crate) use uniform::{Anchor, AreaLight, Frame, scaled};
 
 /// What the host has to agree on with `area_light.wgsl`.
 pub(crate) const SHARED: Shared =
-    Shared { module: "area_light", layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT], constants: &[] };
+    Shared { module: "area_light", layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT], constants: form::CONSTANTS };
 
 /// The share of coordinates that a few roundings of single precision come to.
 pub(crate) const ROUNDING: f64 = 1e-6;

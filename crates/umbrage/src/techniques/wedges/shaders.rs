@@ -1,7 +1,7 @@
 //! The shaders of the one draw and of its pictures.
 
-use super::records::{BUNDLE, BUNDLE_RECORD, CAP_RECORD, GROUP, RECORD, WINDOW};
-use crate::shader::{Module, Shader};
+use super::records;
+use crate::shader::{HostConstant, Module, Shader};
 
 /// What the shaders of this folder need of each other.
 const MODULES: &[Module] = &[
@@ -16,28 +16,30 @@ const MODULES: &[Module] = &[
     Module { name: "term_picture", source: include_str!("term_picture.wgsl") },
 ];
 
+const GROUP: HostConstant = ("GROUP", records::GROUP as f64);
+
 /// One that needs modules of this folder.
 pub(super) const fn shader(name: &'static str, source: &'static str) -> Shader {
     Shader::new(name, source).with_modules(MODULES)
 }
 
 pub(super) const MAKE: Shader =
-    shader("make wedges", include_str!("make.wgsl")).with_constants(&[("Wedge", RECORD as f64), ("GROUP", GROUP as f64)]);
+    shader("make wedges", include_str!("make.wgsl")).with_constants(&[("Wedge", records::RECORD as f64), GROUP]);
 
 pub(super) const BUNDLE: Shader =
     shader("bundle wedges", include_str!("bundle.wgsl")).with_constants(&[
-        ("Bundle", BUNDLE_RECORD as f64),
-        ("BUNDLE", BUNDLE as f64),
-        ("GROUP", GROUP as f64),
-        ("WINDOW", WINDOW as f64),
+        ("Bundle", records::BUNDLE_RECORD as f64),
+        ("BUNDLE", records::BUNDLE as f64),
+        GROUP,
+        ("WINDOW", records::WINDOW as f64),
     ]);
 
 pub(super) const CAPS: Shader =
-    shader("make caps", include_str!("caps.wgsl")).with_constants(&[("Cap", CAP_RECORD as f64)]);
+    shader("make caps", include_str!("caps.wgsl")).with_constants(&[("Cap", records::CAP_RECORD as f64)]);
 
 /// Adds up what is covered; shares come from a formula, a table for discs, or a table for one picture.
 pub(super) const DRAWS: [Shader; 3] = [
-    shader("wedges", "// needs: draw, term_analytic").with_constants(&[("GROUP", GROUP as f64)]),
+    shader("wedges", "// needs: draw, term_analytic").with_constants(&[GROUP]),
     shader("wedges by table", "// needs: draw, term_table"),
     shader("wedges of a picture", "// needs: draw, term_picture"),
 ];

@@ -2,7 +2,7 @@
 
 use super::super::draws::Draw;
 use super::super::piece::{BODY_INDICES, Piece};
-use super::super::targets::GROUP;
+use super::super::records::GROUP;
 use super::super::way::Recording;
 use crate::view::View;
 use std::ops::Range;
