@@ -18,7 +18,7 @@ const RAYS: &str = "1024";
 /// Writes the generated tables; the tests that compare them do so when asked.
 pub fn tables() -> Result<()> {
     let mut command = shell::cargo();
-    command.args(["test", "--quiet", "--package", "umbrage-cli", "--test", "command", "docs::"]);
+    command.args(["test", "--quiet", "--workspace", "--test", "command", "docs::"]);
     command.env("UMBRAGE_WRITE_DOCS", "1");
     shell::run(command)
 }

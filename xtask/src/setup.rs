@@ -5,10 +5,22 @@ use anyhow::{Context, Result, bail};
 use serde_json::Value;
 use std::{fs, path::Path, process::Command};
 
-/// Ends with a usable adapter, or with an error that says what to install. Tells whether all there is is software.
+/// Ends with a usable adapter, or with an error that says what to install. Tells whether there is only a software adapter.
 pub fn run(profile: Profile) -> Result<bool> {
     shell::build(profile)?;
-    if let Some(found) = adapters(profile)? {
+    find_or_install(&|| Ok(shell::umbrage(profile, &LIST)))
+}
+
+/// The same with the command that the tests have built.
+pub fn run_tested() -> Result<bool> {
+    find_or_install(&|| shell::tested_umbrage(&LIST))
+}
+
+/// What to ask the command for the adapters.
+const LIST: [&str; 2] = ["list", "--json"];
+
+fn find_or_install(list: &dyn Fn() -> Result<Command>) -> Result<bool> {
+    if let Some(found) = adapters(list()?)? {
         return Ok(found.show());
     }
     if !is_debian() {
@@ -17,7 +29,7 @@ pub fn run(profile: Profile) -> Result<bool> {
     println!("no usable graphics adapter: installing Mesa's software Vulkan driver");
     shell::run(apt(&["update"]))?;
     shell::run(apt(&["install", "--yes", "--no-install-recommends", "mesa-vulkan-drivers", "libvulkan1"]))?;
-    let found = adapters(profile)?.context("Mesa is installed, yet there is still no usable graphics adapter")?;
+    let found = adapters(list()?)?.context("Mesa is installed, yet there is still no usable graphics adapter")?;
     Ok(found.show())
 }
 
@@ -38,9 +50,8 @@ impl Found {
 const USABLE: [&str; 3] = ["Vulkan", "Metal", "Dx12"];
 
 /// The usable adapters that `umbrage` sees; `None` where there is none.
-fn adapters(profile: Profile) -> Result<Option<Found>> {
-    let json: Value = serde_json::from_str(&shell::output(shell::umbrage(profile, &["list", "--json"]))?)
-        .context("`umbrage list --json` printed no JSON")?;
+fn adapters(list: Command) -> Result<Option<Found>> {
+    let json: Value = serde_json::from_str(&shell::output(list)?).context("`umbrage list --json` printed no JSON")?;
     let list = json["adapters"].as_array().context("`umbrage list --json` has no list of adapters")?;
     let usable = |a: &&Value| a["backend"].as_str().is_some_and(|backend| USABLE.contains(&backend));
     let list: Vec<&Value> = list.iter().filter(usable).collect();

@@ -38,6 +38,15 @@ pub fn umbrage(profile: Profile, arguments: &[&str]) -> Command {
     command
 }
 
+/// The `umbrage` command that the tests have built, beside this program.
+pub fn tested_umbrage(arguments: &[&str]) -> Result<Command> {
+    let name = format!("umbrage{}", std::env::consts::EXE_SUFFIX);
+    let path = std::env::current_exe().context("can't find this program's own file")?.with_file_name(name);
+    let mut command = Command::new(path);
+    command.env("NODEVICE_SELECT", "1").args(arguments);
+    Ok(command)
+}
+
 /// Builds the `umbrage` command with cargo's own progress on view.
 pub fn build(profile: Profile) -> Result<()> {
     let mut command = cargo();

@@ -1,9 +1,6 @@
 //! The whole test suite.
 
-use crate::{
-    bench, setup,
-    shell::{self, Profile},
-};
+use crate::{bench, setup, shell};
 use anyhow::{Result, bail};
 use std::process::Command;
 
@@ -13,7 +10,11 @@ const WITH_PYTHON: &str = "the_numbers_are_those_of_the_script";
 /// Runs every test of the workspace; `rest` goes to `cargo test` (a filter, `-- --nocapture`). Tests that need the shared
 /// references are ignored by name; where the references are there they run, else the last lines say how many did not.
 pub fn run(rest: &[&str]) -> Result<()> {
-    setup::run(Profile::Dev)?;
+    // The tests are built first, with their command: building that by itself would compile wgpu twice.
+    let mut build = shell::cargo();
+    build.args(["test", "--workspace", "--no-run"]);
+    shell::run(build)?;
+    setup::run_tested()?;
     let missing = Missing::find();
     let mut command = shell::cargo();
     command.args(["test", "--workspace", "--no-fail-fast"]).args(rest);
