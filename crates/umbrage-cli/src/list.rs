@@ -4,9 +4,9 @@ use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
 use std::io::{Write, stdout};
-use umbrage::{AdapterSummary, Gpu, Param};
+use umbrage::{AdapterSummary, Gpu, Group, Param};
 use umbrage_core::scenes::SCENES;
-use umbrage_report::{RAY_TRACED, RAY_TRACED_PARAMS, RAY_TRACED_SUMMARY};
+use umbrage_report::{RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced};
 
 /// Lists techniques with their parameters, built-in scenes, and graphics adapters
 #[derive(Args)]
@@ -48,7 +48,7 @@ fn entries() -> Vec<Entry> {
         summary: RAY_TRACED_SUMMARY,
         source: "PX 2.1.2; ZA 5.4",
         lights: kinds(umbrage_core::LightKinds::ALL),
-        params: RAY_TRACED_PARAMS,
+        params: RayTraced::params(),
         views: &[],
     };
     let registered = umbrage::techniques().iter().map(|t| Entry {
@@ -56,7 +56,7 @@ fn entries() -> Vec<Entry> {
         summary: t.summary,
         source: t.source,
         lights: kinds(t.lights),
-        params: t.params,
+        params: t.params(),
         views: t.views,
     });
     std::iter::once(ray_traced).chain(registered).collect()

@@ -7,9 +7,7 @@ use crate::{
 use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;
-use umbrage_report::{
-    Aov, Choice, LIGHT_SAMPLES, Method, Picture, RAY_TRACED, RAY_TRACED_PARAMS, Shot, Source, check_file,
-};
+use umbrage_report::{Aov, Choice, LIGHT_SAMPLES, Method, Picture, RAY_TRACED, RayTraced, Shot, Source, check_file};
 
 /// Renders one picture of a scene with one technique
 #[derive(Args)]
@@ -96,8 +94,7 @@ impl Render {
                 bail!("--light-samples is for hard techniques; `{RAY_TRACED}` takes --samples");
             }
             set.extend(self.samples.map(|n| ("samples".into(), n.to_string())));
-            let settings = umbrage::Settings::parse(RAY_TRACED, RAY_TRACED_PARAMS, &set)?;
-            return Ok(Method::RayTraced { samples: u32::try_from(settings.int("samples"))? });
+            return Ok(Method::RayTraced { samples: RayTraced::read(&set)?.samples });
         }
         if self.samples.is_some() {
             bail!("--samples is for `{RAY_TRACED}`; hard techniques take --light-samples");

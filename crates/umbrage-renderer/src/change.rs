@@ -81,9 +81,9 @@ impl Renderer {
         self.gpu.queue.submit([encoder.finish()]);
     }
 
-    /// Has every technique drop what it keeps from frame to frame, see [`Technique::forget`].
+    /// Has every technique drop what it keeps from frame to frame, see [`umbrage::Inside::forget`].
     pub fn forget(&mut self) {
-        self.lights.iter_mut().for_each(|light| light.technique.forget());
+        self.lights.iter_mut().for_each(|light| light.technique.inside_mut().forget());
     }
 
     /// The scene's geometry on the GPU, to move instances.

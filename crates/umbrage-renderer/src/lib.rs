@@ -190,12 +190,12 @@ impl Renderer {
 
     /// What the technique of pass number `pass` drew and holds.
     pub fn stats(&self, pass: usize) -> Stats {
-        self.lights.get(pass).map(|l| l.technique.stats()).unwrap_or_default()
+        self.lights.get(pass).map(|l| l.technique.inside().stats()).unwrap_or_default()
     }
 
-    /// What else the last frame of pass number `pass` came to; see [`Technique::counts`].
+    /// What else the last frame of pass number `pass` came to; see [`Inside::counts`](umbrage::Inside::counts).
     pub fn counts(&self, pass: usize) -> Vec<(&'static str, u64)> {
-        self.lights.get(pass).map(|l| l.technique.counts()).unwrap_or_default()
+        self.lights.get(pass).map(|l| l.technique.inside().counts()).unwrap_or_default()
     }
 
     /// The technique of pass number `pass`.

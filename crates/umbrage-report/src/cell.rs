@@ -131,7 +131,7 @@ impl Cell<'_> {
     /// For techniques with maps: how large their texels are on the screen.
     fn footprint(&self, renderer: &Renderer) -> Option<Image<f32>> {
         let technique = renderer.technique(0)?;
-        let (views, splits) = (technique.light_views(), technique.split_distances());
+        let (views, splits) = (technique.inside().light_views(), technique.inside().split_distances());
         let Geometry { depth, normal, .. } = &self.tracing.geometry;
         (!views.is_empty()).then(|| texel_footprint(views, splits, &self.source.scene.camera, depth, normal))
     }
@@ -139,7 +139,7 @@ impl Cell<'_> {
     /// For techniques with splits: how much worse shadows are around their borders.
     fn seam(&self, produced: &Image<f32>, renderer: &Renderer) -> Result<Option<f64>, Error> {
         let Some(technique) = renderer.technique(0) else { return Ok(None) };
-        let (views, splits) = (technique.light_views(), technique.split_distances());
+        let (views, splits) = (technique.inside().light_views(), technique.inside().split_distances());
         let around = around_borders(views, splits, &self.source.scene.camera, &self.tracing.geometry.depth);
         let Truth { visibility, mask, .. } = self.truth;
         Ok(seam(produced, visibility, mask, &around)?)

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use std::collections::BTreeMap;
-use umbrage::{Gpu, Param, ParamKind, Settings, Technique, TechniqueInfo, Value};
+use umbrage::{Gpu, Registry, Settings, Technique, TechniqueInfo, Value};
 use umbrage_core::LightKind;
 
 /// Name of the CPU ray tracer where a technique may be named.
@@ -12,13 +12,25 @@ pub const RAY_TRACED: &str = "ray-traced";
 pub const RAY_TRACED_SUMMARY: &str =
     "The truth, by the CPU: rays to points spread evenly over the light. Every comparison is held against it.";
 
-/// Its parameters.
-pub const RAY_TRACED_PARAMS: &[Param] = &[Param {
-    name: "samples",
-    help: "Rays for each pixel; 1 is the one ray to the light's centre, the perfect hard shadow.",
-    unit: "",
-    kind: ParamKind::Int { min: 1, max: 1 << 20, default: 1024 },
-}];
+umbrage::settings! {
+    /// Its settings.
+    pub struct RayTraced {
+        /// Rays for each pixel; 1 is the one ray to the light's centre, the perfect hard shadow.
+        samples: u32 = 1024, in 1..=1048576,
+    }
+}
+
+impl RayTraced {
+    /// From pairs of name and value.
+    ///
+    /// # Errors
+    /// Names that are not known, with the nearest one, and values out of range.
+    pub fn read(set: &[(String, String)]) -> Result<Self, Error> {
+        let mut settings = Self::default();
+        umbrage::read_settings(&Registry::default(), RAY_TRACED, &mut settings, set)?;
+        Ok(settings)
+    }
+}
 
 /// The pseudo-parameter that averages a hard technique over points of the light.
 pub const LIGHT_SAMPLES: &str = "light-samples";
@@ -54,9 +66,7 @@ impl Choice {
         let (brute, set): (Vec<_>, Vec<_>) = set.iter().cloned().partition(|(name, _)| name == LIGHT_SAMPLES);
         let light_samples = brute.last().map(|(_, value)| parse_light_samples(info, value)).transpose()?;
         let settings = info.settings(&set)?;
-        let defaults = info.settings(&[])?;
-        let differs = settings.iter().zip(defaults.iter()).filter(|(s, d)| s != d);
-        let changed = differs.map(|((name, value), _)| (name.to_string(), value.to_string())).collect();
+        let changed = settings.changed().map(|(name, value)| (name.to_string(), value.to_string())).collect();
         Ok(Self { info, settings, light_samples, note: None, changed })
     }
 
@@ -123,10 +133,10 @@ impl Choice {
         if name == LIGHT_SAMPLES {
             return self.light_samples.map(f64::from);
         }
-        match self.settings.iter().find(|(own, _)| *own == name)?.1 {
+        match self.settings.get(name)? {
             Value::Int(value) => Some(value as f64),
             Value::Float(value) => Some(value),
-            Value::Choice(_) | Value::Switch(_) => None,
+            Value::Choice(_) | Value::Switch(_) | Value::Filter(_) => None,
         }
     }
 
@@ -155,8 +165,8 @@ impl Choice {
     /// What the adapter can't do.
     pub fn make(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
         Ok(match self.light_samples {
-            Some(n) => umbrage::light_samples(self.info, gpu, &self.settings, n)?,
-            None => self.info.make(gpu, &self.settings)?,
+            Some(n) => umbrage::light_samples(gpu, &self.settings, n)?,
+            None => self.settings.make(gpu)?,
         })
     }
 }
@@ -176,7 +186,7 @@ impl Renamed {
         let (before, now) = (umbrage::find(old.technique)?, umbrage::find(old.to)?);
         let rest = set.iter().filter(|(name, _)| name != old.param).cloned();
         let (own, others): (Vec<_>, Vec<_>) =
-            rest.partition(|(name, _)| name == LIGHT_SAMPLES || now.params.iter().any(|p| p.name == name));
+            rest.partition(|(name, _)| name == LIGHT_SAMPLES || now.params().iter().any(|p| p.name == name));
         before.settings(&others)?;
         let mut choice = Choice::new(now.id, &own)?;
         let name = format!("{}:{}={}", old.technique, old.param, old.value);

@@ -1,6 +1,6 @@
 //! Visibility that is already known, as a technique: with it the renderer shades the reference.
 
-use umbrage::{Error, Gpu, Passes, Stats, Technique, View, VisibilityTarget};
+use umbrage::{Error, Gpu, Inside, Passes, Stats, Technique, View, VisibilityTarget};
 use umbrage_core::Image;
 
 /// Writes one picture, whatever the view.
@@ -80,6 +80,16 @@ impl Technique for Given {
         Ok(())
     }
 
+    fn inside(&self) -> &dyn Inside {
+        self
+    }
+
+    fn inside_mut(&mut self) -> &mut dyn Inside {
+        self
+    }
+}
+
+impl Inside for Given {
     fn stats(&self) -> Stats {
         Stats { draws: 1, triangles: 1, bytes: self.bytes, ..Stats::default() }
     }

@@ -32,7 +32,7 @@ mod table;
 mod truth;
 
 pub use bench::{Bench, BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene};
-pub use choice::{Choice, LIGHT_SAMPLES, RAY_TRACED, RAY_TRACED_PARAMS, RAY_TRACED_SUMMARY};
+pub use choice::{Choice, LIGHT_SAMPLES, RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced};
 pub use column::{COLUMNS, Column};
 pub use compare::{Compare, Outcome};
 pub use error::Error;

@@ -205,7 +205,7 @@ mod tests {
         for moving in Moving::ALL {
             let motion = Motion::new(moving, &scene);
             let info = umbrage::find("shadow-map").unwrap();
-            let technique = info.make(&gpu, &info.settings(&[]).unwrap()).unwrap();
+            let technique = info.settings(&[]).unwrap().make(&gpu).unwrap();
             let mut renderer = Renderer::new(&gpu, &scene, 96, 72, vec![LightPass { light: 0, technique }]).unwrap();
             let [start, way, end] = [0, PERIOD / 2, PERIOD].map(|frame| {
                 motion.apply(&gpu, &mut renderer, &[0], frame);

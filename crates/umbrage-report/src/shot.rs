@@ -167,7 +167,7 @@ impl Shot {
         let scene = &self.source.scene;
         let passes = self.lights.iter().zip(techniques).map(|(&light, mut technique)| {
             if let Aov::Inside(name) = &self.aov {
-                technique.inspect(Some(name));
+                technique.inside_mut().inspect(Some(name));
             }
             LightPass { light, technique }
         });
@@ -182,7 +182,7 @@ impl Shot {
             Aov::Normal => Picture::Normal(renderer.normal()?),
             Aov::Visibility | Aov::Scored => Picture::Share(renderer.visibility(0)?),
             Aov::Inside(name) => {
-                let views = renderer.technique(0).map(|t| t.debug_views()).unwrap_or_default();
+                let views = renderer.technique(0).map(|t| t.inside().debug_views()).unwrap_or_default();
                 let view = views.iter().find(|v| v.name == name).ok_or_else(|| self.no_view(name, &views))?;
                 if view.texture.format().components() == 4 {
                     Picture::Color(renderer.read_debug_color(view)?)

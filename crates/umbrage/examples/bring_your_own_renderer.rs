@@ -7,7 +7,9 @@
 
 use umbrage::core::glam::{DAffine3, DMat4, DVec3, DVec4};
 use umbrage::core::{CameraView, Light, LightShape, Material, Scene, primitive};
-use umbrage::{Casters, Gpu, Receivers, Recorder, View, VisibilityTarget};
+use umbrage::depth_maps::Kernel;
+use umbrage::techniques::pcf::Pcf;
+use umbrage::{Casters, Configure, Gpu, Receivers, Recorder, View, VisibilityTarget};
 use wgpu::util::DeviceExt;
 
 const SIZE: (u32, u32) = (640, 480);
@@ -54,8 +56,7 @@ pub fn frames(count: u32) -> Result<umbrage::core::Image<f32>, Box<dyn std::erro
     let mut casters = Casters::new(&gpu, &scene)?;
     let receivers = Receivers::new(&gpu, &depth, None, SIZE);
     let visibility = VisibilityTarget::new(&gpu, SIZE.0, SIZE.1)?;
-    let info = umbrage::find("pcf")?;
-    let mut technique = info.make(&gpu, &info.settings(&[("kernel".into(), "5".into())])?)?;
+    let mut technique = Pcf { kernel: Kernel::Square5, ..Default::default() }.make(&gpu)?;
     let mut recorder = Recorder::new(&gpu);
     for frame in 0..count {
         // The host moves things and draws its depth.

@@ -4,6 +4,9 @@
 //! a [`VisibilityTarget`]. A host engine brings its device, depth buffer, camera, casters and lights:
 //!
 //! ```no_run
+//! use umbrage::depth_maps::Kernel;
+//! use umbrage::{Configure, techniques::pcf::Pcf};
+//!
 //! # fn frame(device: wgpu::Device, queue: wgpu::Queue, depth: &wgpu::TextureView, camera: umbrage::core::CameraView,
 //! #          scene: &umbrage::core::Scene) -> Result<(), umbrage::Error> {
 //! // Once.
@@ -11,8 +14,7 @@
 //! let casters = umbrage::Casters::new(&gpu, scene)?;
 //! let receivers = umbrage::Receivers::new(&gpu, depth, None, (1024, 768));
 //! let visibility = umbrage::VisibilityTarget::new(&gpu, 1024, 768)?;
-//! let info = umbrage::find("pcf")?;
-//! let mut technique = info.make(&gpu, &info.settings(&[])?)?;
+//! let mut technique = Pcf { kernel: Kernel::Square7, ..Default::default() }.make(&gpu)?;
 //! let mut recorder = umbrage::Recorder::new(&gpu);
 //! // Every frame, after the depth buffer is drawn.
 //! let view = umbrage::View {
@@ -35,20 +37,21 @@ struct Readme;
 mod area_light;
 pub mod baseline;
 mod casters;
-mod depth_maps;
+pub mod depth_maps;
 mod error;
 pub mod fullscreen;
 mod gpu;
 mod light_samples;
 mod moment_maps;
-mod params;
 mod passes;
 pub mod read;
 mod receivers;
+mod registry;
+mod settings;
 mod shader;
 mod silhouettes;
 mod technique;
-mod techniques;
+pub mod techniques;
 mod view;
 mod visibility;
 
@@ -57,12 +60,15 @@ pub use casters::{Casters, SeenCasters};
 pub use error::{Error, nearest};
 pub use gpu::{AdapterSummary, Gpu};
 pub use light_samples::light_samples;
-pub use params::{Param, ParamKind, Settings, Value};
 pub use passes::{Owner, PassTime, Passes, Recorder};
 pub use receivers::{Eye, Receivers};
+pub use registry::{Filter, FilterId, FilterUse, Registry, find, parse, techniques};
+#[doc(hidden)]
+pub use settings::declare;
+pub use settings::{Configure, Group, Param, ParamKind, Setting, Settings, Value, read as read_settings};
 pub use shader::{HostConstant, HostLayout, Module, Shader, Shared, Unresolved};
-pub use technique::{DebugView, Make, Stats, Technique, TechniqueInfo};
-pub use techniques::{RENAMED, Renamed, find, techniques};
+pub use technique::{DebugView, Family, Inside, SettingsOf, Stats, Technique, TechniqueInfo};
+pub use techniques::{RENAMED, Renamed};
 
 pub use umbrage_core as core;
 pub use view::View;

@@ -5,10 +5,10 @@ use crate::{
     error::Error,
     fullscreen::{self, FLOATS, Fullscreen, additive, attachment, bind, layout},
     gpu::Gpu,
-    params::Settings,
     passes::Passes,
+    settings::Settings,
     shader::Shader,
-    technique::{DebugView, Stats, Technique, TechniqueInfo},
+    technique::{DebugView, Inside, Stats, Technique},
     view::View,
     visibility::VisibilityTarget,
 };
@@ -17,17 +17,13 @@ use umbrage_core::{Light, light_view::LightView, sampling::hard_lights};
 /// Shader of the adaptor, for the registry's tests.
 pub const SHADER: Shader = Shader::new("light samples", include_str!("wgsl/light_samples.wgsl"));
 
-/// Wraps the technique `info` describes, so that its visibility is the mean over `samples` points of the light.
+/// Wraps the technique of `settings`, so that its visibility is the mean over `samples` points of the light.
 ///
 /// # Errors
 /// [`Error::Unsupported`] for a technique that is not hard; [`Error::Size`] for 0 samples or more than 2048; what
 /// making the technique itself gives.
-pub fn light_samples(
-    info: &'static TechniqueInfo,
-    gpu: &Gpu,
-    settings: &Settings,
-    samples: u32,
-) -> Result<Box<dyn Technique>, Error> {
+pub fn light_samples(gpu: &Gpu, settings: &Settings, samples: u32) -> Result<Box<dyn Technique>, Error> {
+    let info = settings.info();
     if !info.hard {
         let what = "brute force over light samples, since it is not a hard technique".into();
         return Err(Error::Unsupported { technique: info.id.into(), what });
@@ -35,7 +31,7 @@ pub fn light_samples(
     if samples == 0 || samples > MAX_SAMPLES {
         return Err(Error::Size { what: "light samples".into(), size: samples.into(), limit: MAX_SAMPLES.into() });
     }
-    let inner = info.make(gpu, settings)?;
+    let inner = settings.make(gpu)?;
     Ok(Box::new(LightSamples::new(gpu, inner, samples)))
 }
 
@@ -120,7 +116,7 @@ impl Technique for LightSamples {
             self.inner.record(passes, &view, &targets.one)?;
             let load = if i == 0 { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
             draw(passes, "add a sample", &self.add, &targets.read_one, &targets.sum.view, load);
-            let one = self.inner.stats();
+            let one = self.inner.inside().stats();
             stats.draws += one.draws + 1;
             stats.triangles += one.triangles + 1;
             stats.casters_drawn += one.casters_drawn;
@@ -134,26 +130,47 @@ impl Technique for LightSamples {
         Ok(())
     }
 
+    fn set(&mut self, gpu: &Gpu, settings: &Settings) -> Result<bool, Error> {
+        self.inner.set(gpu, settings)
+    }
+
+    fn inside(&self) -> &dyn Inside {
+        self
+    }
+
+    fn inside_mut(&mut self) -> &mut dyn Inside {
+        self
+    }
+}
+
+/// All but the sums is the inner technique's, and what it says is of the last sample.
+impl Inside for LightSamples {
     fn stats(&self) -> Stats {
         self.stats
     }
 
-    /// Those of the last sample; the maps of all are alike in size.
-    fn light_views(&self) -> &[LightView] {
-        self.inner.light_views()
+    fn forget(&mut self) {
+        self.inner.inside_mut().forget();
     }
 
-    /// Those of the last sample.
+    fn light_views(&self) -> &[LightView] {
+        self.inner.inside().light_views()
+    }
+
+    fn split_distances(&self) -> &[f64] {
+        self.inner.inside().split_distances()
+    }
+
     fn counts(&self) -> Vec<(&'static str, u64)> {
-        self.inner.counts()
+        self.inner.inside().counts()
     }
 
     fn inspect(&mut self, view: Option<&str>) {
-        self.inner.inspect(view);
+        self.inner.inside_mut().inspect(view);
     }
 
     fn debug_views(&self) -> Vec<DebugView<'_>> {
-        self.inner.debug_views()
+        self.inner.inside().debug_views()
     }
 }
 

@@ -1,8 +1,7 @@
 //! What a technique is.
 
 use crate::{
-    error::Error, gpu::Gpu, params::Param, params::ParamKind, params::Settings, passes::Passes, shader::Shader,
-    techniques::techniques, view::View, visibility::VisibilityTarget,
+    Error, FilterUse, Gpu, Param, Passes, Registry, Settings, Shader, View, VisibilityTarget, settings::Configure,
 };
 use umbrage_core::{LightKind, LightKinds, light_view::LightView};
 
@@ -23,6 +22,15 @@ pub trait Technique: Send {
     /// As [`Technique::prepare`].
     fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error>;
 
+    /// Takes over settings that differ from its own in [live](Param::live) parameters only, see
+    /// [`Settings::differs_live`]. False where it can't: nothing has changed then, and a new technique is to be made.
+    ///
+    /// # Errors
+    /// [`Error::Size`] beyond the device's limits.
+    fn set(&mut self, _gpu: &Gpu, _settings: &Settings) -> Result<bool, Error> {
+        Ok(false)
+    }
+
     /// In place of `prepare` and `record` of one light: leaves 0 in `visibility` where a point is in the shadow of any of the
     /// views' lights, else 1. Known to be wrong for more than one light, and kept to be compared with (PX 3.4). The views differ in
     /// nothing but the light.
@@ -40,11 +48,20 @@ pub trait Technique: Send {
         Err(Error::Unsupported { technique, what })
     }
 
-    /// Drops what earlier frames left to be used again: the next frame does all of the work.
-    fn forget(&mut self) {}
+    /// What is inside, for those who measure and look.
+    fn inside(&self) -> &dyn Inside;
 
+    /// The same, to change what is measured and looked at.
+    fn inside_mut(&mut self) -> &mut dyn Inside;
+}
+
+/// What can be measured of a technique and looked at in it. No picture depends on it.
+pub trait Inside {
     /// What the last frame drew and what is held.
     fn stats(&self) -> Stats;
+
+    /// Drops what earlier frames left to be used again: the next frame does all of the work.
+    fn forget(&mut self) {}
 
     /// The views of the light that the last frame rendered maps for; empty for techniques without maps. The
     /// measurement uses them to tell how large a texel is on the screen.
@@ -52,20 +69,20 @@ pub trait Technique: Send {
         &[]
     }
 
-    /// Distances along the camera's view at which one of [`Technique::light_views`] gives way to the next, metres, ascending;
-    /// empty where views are not chosen by that. Between distances number i − 1 and i the view of layer i counts, or that of layer i − 1
-    /// where it goes on, see [`umbrage_core::light_view::view_at`].
+    /// Distances along the camera's view at which one of [`Inside::light_views`] ends and the next begins, metres,
+    /// ascending; empty where views are not chosen by distance. Between distances number i − 1 and i the view of layer i
+    /// counts, or that of layer i − 1 where it still covers the point, see [`umbrage_core::light_view::view_at`].
     fn split_distances(&self) -> &[f64] {
         &[]
     }
 
-    /// What else the last frame came to, by name: casters culled and why, and the like.
+    /// More numbers of the last frame, by name: casters culled and why, and the like.
     fn counts(&self) -> Vec<(&'static str, u64)> {
         Vec::new()
     }
 
     /// From the next frame on draws this one of [`TechniqueInfo::views`] where a frame does not make it anyway, and shows it
-    /// among [`Technique::debug_views`]; `None` and other names end that.
+    /// among [`Inside::debug_views`]; `None` and other names end that.
     fn inspect(&mut self, _view: Option<&str>) {}
 
     /// Pictures of what is inside, as far as the last frame made them.
@@ -100,8 +117,29 @@ pub struct DebugView<'a> {
     pub layer: u32,
 }
 
-/// Makes a technique from checked settings.
-pub type Make = fn(&Gpu, &Settings) -> Result<Box<dyn Technique>, Error>;
+/// What kind of thing a technique is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// No shadow at all, to compare with.
+    Control,
+    /// Renders depth maps from the light and looks them up.
+    DepthMaps,
+    /// Filters moments of depth maps.
+    MomentMaps,
+    /// Fits the maps that a filter looks up: splits, warps.
+    FittedMaps,
+    /// Counts shadow volumes.
+    Volumes,
+    /// Works from silhouettes or triangles and the extent of the light.
+    AreaLights,
+}
+
+impl Family {
+    /// The technique renders maps seen from the light.
+    pub fn has_maps(self) -> bool {
+        matches!(self, Self::DepthMaps | Self::MomentMaps | Self::FittedMaps)
+    }
+}
 
 /// Everything the program knows of a technique; one constant in its folder.
 pub struct TechniqueInfo {
@@ -113,22 +151,38 @@ pub struct TechniqueInfo {
     pub summary: &'static str,
     /// Where it is from.
     pub source: &'static str,
+    /// What kind of thing it is.
+    pub family: Family,
+    /// What it can look up of the maps that splits and warps fit; `None` where it has maps of its own only, or none.
+    pub filter: Option<FilterUse>,
     /// The kinds of light it can do; soft kinds done as hard ones from their centre count.
     pub lights: LightKinds,
     /// Features it can't do without.
     pub features: wgpu::Features,
     /// True where it gives 0 or 1 from one point of the light, so that `light_samples` makes sense.
     pub hard: bool,
-    /// Its parameters.
-    pub params: &'static [Param],
+    /// Its settings, see [`SettingsOf::new`].
+    pub settings: SettingsOf,
     /// Names of the pictures of its inside; a light may come without some of them.
     pub views: &'static [&'static str],
     /// Its shaders.
     pub shaders: &'static [Shader],
     /// Its README.
     pub readme: &'static str,
-    /// Makes one.
-    pub make: Make,
+}
+
+/// The type of a technique's settings.
+#[derive(Clone, Copy)]
+pub struct SettingsOf {
+    params: fn() -> &'static [Param],
+    default: fn() -> Settings,
+}
+
+impl SettingsOf {
+    /// Those of `T`.
+    pub const fn new<T: Configure>() -> Self {
+        Self { params: T::params, default: || T::default().into() }
+    }
 }
 
 impl std::fmt::Debug for TechniqueInfo {
@@ -138,41 +192,35 @@ impl std::fmt::Debug for TechniqueInfo {
 }
 
 impl TechniqueInfo {
-    /// Checked settings from pairs of name and value; what is not named keeps its default.
+    /// Its parameters.
+    pub fn params(&self) -> &'static [Param] {
+        (self.settings.params)()
+    }
+
+    /// Every parameter at its default.
+    pub fn default_settings(&self) -> Settings {
+        (self.settings.default)()
+    }
+
+    /// Checked settings from pairs of name and value; what is not named keeps its default. Filters are those that are
+    /// built in; [`Registry::settings`] knows others too.
     ///
     /// # Errors
     /// [`Error::Unknown`] and [`Error::Setting`].
-    pub fn settings(&self, set: &[(String, String)]) -> Result<Settings, Error> {
-        Settings::parse(self.id, self.params, set).map_err(|error| self.naming_others(error))
+    pub fn settings(&'static self, set: &[(String, String)]) -> Result<Settings, Error> {
+        Registry::default().with(self).settings(self.id, set)
     }
 
-    /// A word that other techniques know for the same parameter: their names are the way out.
-    fn naming_others(&self, mut error: Error) -> Error {
-        if let Error::Setting { name, value, expected, .. } = &mut error {
-            let knows = |p: &Param| {
-                p.name == name && matches!(p.kind, ParamKind::Choice { values } if values.contains(&value.as_str()))
-            };
-            let others: Vec<_> = techniques().iter().filter(|t| t.params.iter().any(knows)).map(|t| t.id).collect();
-            if !others.is_empty() {
-                expected.push_str(&format!(
-                    "; choose one of these, or a technique that can do `{value}`: {}",
-                    others.join(", ")
-                ));
-            }
-        }
-        error
-    }
-
-    /// A technique with these settings.
+    /// Whether the device has what the technique can't do without.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] where the device lacks a feature; [`Error::Size`] beyond its limits.
-    pub fn make(&self, gpu: &Gpu, settings: &Settings) -> Result<Box<dyn Technique>, Error> {
-        if !gpu.has(self.features) {
-            let what = format!("this adapter, which lacks {:?}", self.features - gpu.device.features());
-            return Err(Error::Unsupported { technique: self.id.into(), what });
+    /// [`Error::Unsupported`] naming what is lacking.
+    pub fn check(&self, gpu: &Gpu) -> Result<(), Error> {
+        if gpu.has(self.features) {
+            return Ok(());
         }
-        (self.make)(gpu, settings)
+        let what = format!("this adapter, which lacks {:?}", self.features - gpu.device.features());
+        Err(Error::Unsupported { technique: self.id.into(), what })
     }
 
     /// Whether it can do lights of this kind.

@@ -29,7 +29,7 @@ fn defaults_are_in_range_and_words_are_not_empty() {
     for info in techniques() {
         assert!(!info.title.is_empty() && !info.summary.is_empty() && !info.source.is_empty());
         let mut names = HashSet::new();
-        for p in info.params {
+        for p in info.params() {
             assert!(names.insert(p.name) && !p.help.is_empty(), "{} {}", info.id, p.name);
             let set = [(p.name.to_string(), p.kind.default().to_string())];
             assert!(info.settings(&set).is_ok(), "{} {}: the default is not allowed", info.id, p.name);

@@ -51,8 +51,8 @@ fn parameters(params: &[Param]) -> String {
 
 #[test]
 fn the_parameters_of_every_technique_are_those_of_the_registry() {
-    for info in techniques().iter().filter(|t| !t.params.is_empty()) {
-        check(&readme_of(info), "parameters", &parameters(info.params));
+    for info in techniques().iter().filter(|t| !t.params().is_empty()) {
+        check(&readme_of(info), "parameters", &parameters(info.params()));
     }
 }
 

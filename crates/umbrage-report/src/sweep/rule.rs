@@ -13,7 +13,7 @@ use crate::{
     round::rounded,
     sweep::plan::{Curve, changed},
 };
-use umbrage::{ParamKind, Value};
+use umbrage::{ParamKind, Registry, Value};
 
 /// Settings of a technique, its base among them.
 pub(crate) const MOST: usize = 12;
@@ -61,13 +61,13 @@ fn lines(base: &Choice, soft: bool) -> Vec<Line> {
         number: Some(1.0),
         values: POINTS.map(String::from).to_vec(),
     });
-    let free = base.info.params.iter().zip(base.settings.iter());
+    let free = base.info.params().iter().zip(base.settings.iter());
     let free = free.filter(|(param, _)| !base.changed().contains_key(param.name));
     let own = free.map(|(param, (_, value))| {
         let number = match value {
             Value::Int(v) => Some(v as f64),
             Value::Float(v) => Some(v),
-            Value::Choice(_) | Value::Switch(_) => None,
+            Value::Choice(_) | Value::Switch(_) | Value::Filter(_) => None,
         };
         Line { name: param.name, number, values: values(&param.kind, value) }
     });
@@ -92,7 +92,9 @@ fn values(kind: &ParamKind, base: Value) -> Vec<String> {
         (ParamKind::Float { min, max, .. }, Value::Float(v)) => {
             FACTORS.map(|f| Value::Float(rounded(v * f).clamp(min, max)).to_string()).to_vec()
         }
-        (ParamKind::Choice { values }, _) => values.iter().map(|v| (*v).into()).collect(),
+        (ParamKind::Choice { .. } | ParamKind::Filter { .. }, _) => {
+            kind.words(&Registry::default()).into_iter().map(String::from).collect()
+        }
         (_, Value::Switch(on)) => vec![Value::Switch(!on).to_string()],
         _ => Vec::new(),
     };
@@ -165,7 +167,7 @@ mod tests {
     #[test]
     fn what_is_set_stays_and_curves_are_in_order() {
         let number = |p: &&umbrage::Param| matches!(p.kind, ParamKind::Int { default, .. } if default > 3);
-        let with_number = umbrage::techniques().iter().find_map(|t| Some((t, t.params.iter().find(number)?)));
+        let with_number = umbrage::techniques().iter().find_map(|t| Some((t, t.params().iter().find(number)?)));
         let (info, param) = with_number.expect("a technique with a number");
         let base = Choice::new(info.id, &[(param.name.into(), "3".into())]).unwrap();
         let (held, _) = around(&base, false).unwrap();

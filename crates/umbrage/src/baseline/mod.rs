@@ -1,6 +1,6 @@
 //! What any technique costs at least, measured in the same run: the yardsticks that timings are given against.
 
-use crate::depth_maps::MapTechnique;
+use crate::depth_maps::{Blend, Cover, Depth, Map, MapTechnique};
 use crate::{
     error::Error,
     fullscreen::Fullscreen,
@@ -8,8 +8,8 @@ use crate::{
     passes::Passes,
     receivers::Receivers,
     shader::Shader,
-    technique::{Stats, Technique},
-    techniques,
+    technique::{Inside, Stats, Technique},
+    techniques::cascaded::Cascaded,
     view::View,
     visibility::VisibilityTarget,
 };
@@ -40,17 +40,19 @@ pub fn floor(gpu: &Gpu) -> Box<dyn Technique> {
 /// the views are those of `cascaded` where a light has any.
 ///
 /// # Errors
-/// [`Error::Size`] beyond the adapter's limit, [`Error::Setting`] for more splits than there may be.
+/// [`Error::Size`] beyond the adapter's limit, and for more splits than there may be.
 pub fn bare_minimum(gpu: &Gpu, size: u32, splits: u32) -> Result<Box<dyn Technique>, Error> {
-    let of_one = &techniques::shadow_map::INFO;
-    let set = [("size".into(), size.to_string()), ("cache".into(), "off".into())];
-    let settings = if splits > 1 {
-        let more = [("splits".into(), splits.to_string()), ("blend".into(), "off".into())];
-        techniques::cascaded::INFO.settings(&[set, more].concat())?.with_defaults_of(of_one.params)
+    let map = Map { size, cache: false, ..Map::default() };
+    let setup = if splits > 1 {
+        let most = umbrage_core::splits::MOST_SPLITS;
+        if splits as usize > most {
+            return Err(Error::Size { what: "splits".into(), size: splits.into(), limit: most as u64 });
+        }
+        Cascaded { map, splits, blend: Blend::Off, ..Cascaded::default() }.setup()
     } else {
-        of_one.settings(&set)?
+        map.covering(&Cover::default(), Depth::Projective)
     };
-    Ok(Box::new(MapTechnique::new(gpu, &settings, &BARE, 0.0, &[])?.with_every_caster().with_back_faces()))
+    Ok(Box::new(MapTechnique::new(gpu, &setup, &BARE, 0.0, &[])?.with_every_caster().with_back_faces()))
 }
 
 struct Floor {
@@ -71,6 +73,16 @@ impl Technique for Floor {
         Ok(())
     }
 
+    fn inside(&self) -> &dyn Inside {
+        self
+    }
+
+    fn inside_mut(&mut self) -> &mut dyn Inside {
+        self
+    }
+}
+
+impl Inside for Floor {
     fn stats(&self) -> Stats {
         Stats { draws: 1, triangles: 1, ..Stats::default() }
     }

@@ -2,8 +2,7 @@
 
 use super::phases::{OpenPixels, Phase};
 use super::uniforms::MapLookup;
-use super::views::Blend;
-use super::{DepthMaps, Layers};
+use super::{Blend, DepthMaps, Layers};
 use crate::{
     fullscreen::{Fullscreen, UNIFORM, bind, layout},
     gpu::Gpu,
@@ -85,6 +84,11 @@ impl Lookup {
             bind_group: None,
             current: None,
         }
+    }
+
+    /// Multiplies the automatic bias from the next frame on.
+    pub(super) fn set_bias(&mut self, bias: f64) {
+        self.bias = bias;
     }
 
     /// Looks up in two phases; the shader has a `quick_share`, see `lookup/map_quick.wgsl`.

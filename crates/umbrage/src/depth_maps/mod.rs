@@ -7,9 +7,9 @@ mod extent;
 mod layer;
 mod lookup;
 mod movers;
-mod params;
 mod phases;
 mod pipelines;
+mod setup;
 mod soft;
 mod split_fit;
 mod stage;
@@ -19,16 +19,15 @@ mod taps;
 mod textures;
 mod uniforms;
 mod views;
-mod warped;
 
 use crate::{
     casters::{self, Casters},
     error::Error,
     gpu::Gpu,
-    params::Settings,
     passes::Passes,
+    settings::Settings,
     shader::{Shader, Shared},
-    technique::{DebugView, Stats, Technique},
+    technique::{DebugView, Inside, Stats, Technique},
     view::View,
     visibility::VisibilityTarget,
 };
@@ -37,19 +36,21 @@ use cache::{Frame, Work};
 use layer::{Layer, Lists};
 use lookup::Lookup;
 use movers::Movers;
-pub(crate) use params::{BIAS, CACHE, DEPTH, FACES, FOCUS, OMNI, SIZE};
 use pipelines::{Kind, Pipelines};
+pub use setup::{
+    Blend, Cover, Covers, Depth, Faces, Fitting, Kernel, Layout, Map, MapSetup, Softness, Splits, Storage,
+};
 pub(crate) use soft::TapStage;
 pub(crate) use split_fit::SPLIT_FIT_SHADER;
 use split_fit::SplitFitter;
 pub(crate) use stage::Stage;
 use submission::Submission;
-pub(crate) use taps::{GRADIENT_NOISE, NOISE, TESTS, TILE, Taps};
+pub use taps::Noise;
+pub(crate) use taps::{TESTS, Taps};
 use textures::Textures;
 use uniforms::MapView;
 pub(crate) use views::Layers;
 use views::Views;
-pub(crate) use warped::{CUBE, FILTER_KERNEL, GIVE_WAY, HEIGHT, NEAR_PLANE, PLANE, SHIFT, STRENGTH, WARPED_FILTER};
 
 /// The shaders that render maps, for the registry's tests.
 pub(crate) const SHADERS: [Shader; 3] = [pipelines::DEPTH_SHADER, pipelines::SECOND_SHADER, pipelines::MIDPOINT_SHADER];
@@ -69,6 +70,7 @@ pub(crate) const LAYER_NAMES: [&str; MOST_LAYERS] =
 
 /// A technique that renders depth maps and looks them up in one full-screen pass; techniques differ in the shader.
 pub(crate) struct MapTechnique {
+    setup: MapSetup,
     maps: DepthMaps,
     /// For splits that are fitted on the GPU.
     fitter: Option<SplitFitter>,
@@ -81,28 +83,40 @@ impl MapTechnique {
     /// `reach_texels`: how far the shader looks around a receiver in the map. `constants` override the shader's.
     pub(crate) fn new(
         gpu: &Gpu,
-        settings: &Settings,
+        setup: &MapSetup,
         shader: &Shader,
         reach_texels: f64,
         constants: &[(&'static str, f64)],
     ) -> Result<Self, Error> {
-        Self::staged(gpu, settings, shader, reach_texels, constants, None)
+        Self::staged(gpu, setup, shader, reach_texels, constants, None)
     }
 
     /// With a stage between the maps and the look-up, whose bind group is group 2 of the shader.
     pub(crate) fn staged(
         gpu: &Gpu,
-        settings: &Settings,
+        setup: &MapSetup,
         shader: &Shader,
         reach_texels: f64,
         constants: &[(&'static str, f64)],
         stage: Option<Box<dyn Stage>>,
     ) -> Result<Self, Error> {
-        let maps = DepthMaps::new(gpu, settings, reach_texels)?;
+        let maps = DepthMaps::new(gpu, setup, reach_texels)?;
         let more = stage.as_ref().map(|s| s.layout().clone());
-        let lookup = Lookup::new(gpu, shader, settings.float("bias"), maps.choice.blend(), constants, more);
+        let lookup = Lookup::new(gpu, shader, setup.bias, maps.choice.blend(), constants, more);
         let fitter = maps.choice.is_fitted_to_depth().then(|| SplitFitter::new(gpu, lookup.uniforms()));
-        Ok(Self { maps, fitter, stage, lookup, draws: 0 })
+        Ok(Self { setup: *setup, maps, fitter, stage, lookup, draws: 0 })
+    }
+
+    /// Whether the pipelines and the stage are right for `new`, too.
+    fn can_take(&self, new: &MapSetup) -> bool {
+        let fixed = |fitting| match fitting {
+            Fitting::Splits(splits) => Some((splits.blend, splits.depth_fit)),
+            Fitting::One { .. } | Fitting::Warp(_) => None,
+        };
+        let old = &self.setup;
+        let any_size = self.stage.as_ref().is_none_or(|stage| stage.takes_any_size());
+        (old.faces, old.softness, fixed(old.fitting)) == (new.faces, new.softness, fixed(new.fitting))
+            && (any_size || old.size == new.size)
     }
 
     /// Looks up in two phases, see `lookup/map_quick.wgsl`.
@@ -160,6 +174,25 @@ impl Technique for MapTechnique {
         Ok(())
     }
 
+    fn set(&mut self, gpu: &Gpu, settings: &Settings) -> Result<bool, Error> {
+        let Some(setup) = settings.maps().filter(|new| self.can_take(new)) else { return Ok(false) };
+        gpu.check_size("a shadow map", setup.size, setup.size)?;
+        self.maps.set(&setup);
+        self.lookup.set_bias(setup.bias);
+        self.setup = setup;
+        Ok(true)
+    }
+
+    fn inside(&self) -> &dyn Inside {
+        self
+    }
+
+    fn inside_mut(&mut self) -> &mut dyn Inside {
+        self
+    }
+}
+
+impl Inside for MapTechnique {
     fn forget(&mut self) {
         self.maps.layers.iter_mut().for_each(Layer::forget);
     }
@@ -235,24 +268,27 @@ const MOST_BOXES: usize = 256;
 
 const EVERYWHERE: Sphere = Sphere { center: DVec3::ZERO, radius: f64::INFINITY };
 
+/// Whether maps are kept. What is fitted on the GPU is another view in every frame.
+fn caches(setup: &MapSetup, choice: &Views) -> bool {
+    setup.cache && !choice.is_fitted_to_depth()
+}
+
 impl DepthMaps {
-    fn new(gpu: &Gpu, settings: &Settings, reach_texels: f64) -> Result<Self, Error> {
-        let size = settings.int("size").clamp(1, i64::from(u32::MAX)) as u32;
+    fn new(gpu: &Gpu, setup: &MapSetup, reach_texels: f64) -> Result<Self, Error> {
+        let MapSetup { size, faces, .. } = *setup;
         gpu.check_size("a shadow map", size, size)?;
-        let faces = settings.choice("faces");
-        let choice = Views::of(settings);
-        // What is fitted on the GPU is another view in every frame.
-        let cache = settings.switch("cache") && !choice.is_fitted_to_depth();
+        let (choice, midpoint) = (Views::of(setup), faces == Faces::Midpoint);
         Ok(Self {
             size,
-            midpoint: faces == "midpoint",
+            midpoint,
+            cache: caches(setup, &choice),
             choice,
-            linear: settings.choice("depth") == "linear",
+            linear: setup.depth == Depth::Linear,
             border_texels: reach_texels + 1.0,
             soft_texels: 0.0,
             every_caster: false,
             soft: false,
-            pipelines: Pipelines::new(gpu, faces == "back", faces == "midpoint"),
+            pipelines: Pipelines::new(gpu, faces == Faces::Back, midpoint),
             textures: None,
             scene: FitScene::default(),
             scene_of: None,
@@ -260,13 +296,24 @@ impl DepthMaps {
             layout: Layers::Single,
             borders: Vec::new(),
             layers: Vec::new(),
-            lists: Lists::new(faces == "midpoint"),
-            cache,
+            lists: Lists::new(midpoint),
             movers: Movers::default(),
             submission: Submission::default(),
             recorded: false,
             triangles: 0,
         })
+    }
+
+    /// Takes other settings over, where all pipelines stay right.
+    fn set(&mut self, setup: &MapSetup) {
+        if setup.size != self.size {
+            self.textures = None;
+        }
+        self.size = setup.size;
+        self.choice = Views::of(setup);
+        self.linear = setup.depth == Depth::Linear;
+        self.cache = caches(setup, &self.choice);
+        self.layers.iter_mut().for_each(Layer::forget);
     }
 
     fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {

@@ -8,6 +8,11 @@ pub(crate) trait Stage: Send {
     /// The layout of [`Stage::bind_group`], the shader's group 2.
     fn layout(&self) -> &wgpu::BindGroupLayout;
 
+    /// Whether maps of another size need no new stage; a filter's width may go by it.
+    fn takes_any_size(&self) -> bool {
+        true
+    }
+
     /// After the maps' own `prepare`, with the views of this frame.
     fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &DepthMaps) -> Result<(), Error>;
 

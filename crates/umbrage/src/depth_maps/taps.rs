@@ -1,31 +1,24 @@
 //! The table of taps on the GPU, see `stages/map_taps.wgsl`.
 
+use crate::choices;
 use crate::gpu::Gpu;
-use crate::params::{Param, ParamKind, Settings};
 use crate::shader::{Shared, shader_struct};
 use umbrage_core::sampling::{Domain, Pattern, TapTable};
 use umbrage_core::{LightShape, Texture};
 
-/// `noise`: shared by all techniques with taps.
-pub(crate) const NOISE: Param = Param {
-    name: "noise",
-    help: "How neighbouring pixels differ: each pixel of a tile has its own jittered strata, or one set of taps turned by \
-           blue noise, by interleaved gradient noise, or not at all (bands in place of grain).",
-    unit: "",
-    kind: ParamKind::Choice { values: &["stratified", "blue", "gradient", "none"] },
-};
-
-/// `noise` with what leaves the least error first.
-pub(crate) const GRADIENT_NOISE: Param =
-    Param { kind: ParamKind::Choice { values: &["gradient", "stratified", "blue", "none"] }, ..NOISE };
-
-/// `tile`: shared by all techniques with taps.
-pub(crate) const TILE: Param = Param {
-    name: "tile",
-    help: "Pixels across and down after which stratified and blue noise repeat.",
-    unit: "pixels",
-    kind: ParamKind::Int { min: 1, max: 32, default: 8 },
-};
+choices! {
+    /// How the taps of neighbouring pixels differ.
+    pub enum Noise {
+        /// Each pixel of a tile has its own jittered strata.
+        Stratified = "stratified",
+        /// One set of taps, turned by blue noise.
+        Blue = "blue",
+        /// One set of taps, turned by interleaved gradient noise.
+        Gradient = "gradient",
+        /// Not at all: bands in place of grain.
+        None = "none",
+    }
+}
 
 /// Taps on the rim that are tried first.
 pub(crate) const TESTS: u32 = 8;
@@ -59,16 +52,15 @@ pub(crate) struct Taps {
 }
 
 impl Taps {
-    /// As `noise` and `tile` of the settings say, with so many taps for the search (0 for none) and for the filter.
-    pub(crate) fn new(settings: &Settings, search: u32, filter: u32) -> Self {
-        let pattern = match settings.choice("noise") {
-            "blue" => Pattern::Blue,
-            "gradient" => Pattern::Gradient,
-            "none" => Pattern::Fixed,
-            _ => Pattern::Stratified,
+    /// Jittered by `noise`, which repeats after `tile` pixels, with so many taps for the search (0 for none) and for the filter.
+    pub(crate) fn new(noise: Noise, tile: u32, search: u32, filter: u32) -> Self {
+        let pattern = match noise {
+            Noise::Stratified => Pattern::Stratified,
+            Noise::Blue => Pattern::Blue,
+            Noise::Gradient => Pattern::Gradient,
+            Noise::None => Pattern::Fixed,
         };
-        let pattern = Some(pattern);
-        Self { pattern, tile: settings.int("tile") as u32, search, filter, made: None }
+        Self { pattern: Some(pattern), tile, search, filter, made: None }
     }
 
     /// Evenly spread, the same for all pixels.

@@ -1,7 +1,7 @@
 //! Which views of a light a technique renders.
 
-use super::{DepthMaps, MOST_LAYERS};
-use crate::{params::Settings, shader::HostConstant, view::View};
+use super::{Blend, DepthMaps, Fitting, MOST_LAYERS, MapSetup, Softness, Splits};
+use crate::{shader::HostConstant, view::View};
 use umbrage_core::light_view::{
     CUBE_SIDES, Cascades, Cover, Fit, Focus, LightView, Omni, Warp, fit, fit_cascades, fit_warped,
 };
@@ -20,56 +20,37 @@ pub(super) struct Views {
     depth_fit: bool,
 }
 
-/// What happens where one split gives way to the next.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Blend {
-    Off,
-    Dither,
-    Lerp,
-}
-
 impl Blend {
     /// `BLEND` in `lookup/map_layers.wgsl`.
     pub(super) const fn number(self) -> f64 {
-        self as u8 as f64
+        match self {
+            Self::Off => 0.0,
+            Self::Dither => 1.0,
+            Self::Lerp => 2.0,
+        }
     }
 }
-
-/// Share of a split over which it gives way to the next one.
-const OVERLAP: f64 = 0.1;
 
 /// Borders of steady views are whole multiples of so many texels: soft ones would change in every frame.
 const STEADY_BORDER: f64 = 8.0;
 
 impl Views {
-    pub(super) fn of(settings: &Settings) -> Self {
-        let blend = match settings.choice("blend") {
-            "dither" => Blend::Dither,
-            "lerp" => Blend::Lerp,
-            _ => Blend::Off,
+    pub(super) fn of(setup: &MapSetup) -> Self {
+        let none = Self {
+            focus: Focus::Visible,
+            omni: Omni::Cube,
+            cascades: None,
+            warp: None,
+            blend: Blend::Off,
+            softness_m: if let Softness::Metres(radius) = setup.softness { radius } else { 0.0 },
+            depth_fit: false,
         };
-        let cover = match (settings.switch("stabilize"), settings.choice("fit")) {
-            (true, _) => {
-                Cover::Steady { step_texels: (settings.float("margin") * settings.int("size") as f64).max(1.0) }
+        match setup.fitting {
+            Fitting::One { focus, omni } => Self { focus, omni, ..none },
+            Fitting::Splits(Splits { cascades, blend, depth_fit }) => {
+                Self { cascades: Some(cascades), blend, depth_fit, ..none }
             }
-            (false, "frustum") => Cover::Part,
-            (false, _) => Cover::Receivers,
-        };
-        let cascades = Cascades {
-            count: usize::try_from(settings.int("splits")).unwrap_or(0),
-            lambda: settings.float("lambda"),
-            overlap: if blend == Blend::Off { 0.0 } else { OVERLAP },
-            distance: settings.float("distance"),
-            cover,
-        };
-        Self {
-            focus: if settings.choice("focus") == "light" { Focus::Light } else { Focus::Visible },
-            omni: super::params::omni(settings),
-            cascades: (cascades.count > 0).then_some(cascades),
-            warp: super::warped::warp(settings),
-            blend,
-            softness_m: settings.float("radius-m"),
-            depth_fit: settings.switch("depth-fit"),
+            Fitting::Warp(warp) => Self { warp: Some(warp), ..none },
         }
     }
 

@@ -10,36 +10,41 @@ mod range;
 
 use crate::depth_maps::{DepthMaps, Stage, TapStage, Taps};
 use crate::fullscreen::{self, FLOATS, UNIFORM, bind, layout};
-use crate::params::{Param, ParamKind, Settings};
 use crate::shader::{Shader, Shared, shader_struct};
+use crate::{choices, settings};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
 use blur::Blur;
 use made::Made;
 use pipelines::Pipelines;
 
-/// `radius`: shared by all techniques with moments.
-pub(crate) const RADIUS: Param = Param {
-    name: "radius",
-    help: "Radius of the filter, that of a disc as wide; 1 is the least. Its cost does not depend on it.",
-    unit: "texels",
-    kind: ParamKind::Float { min: 0.0, max: 1024.0, default: 1.0 },
-};
+choices! {
+    /// Bits of each stored number.
+    pub enum Format {
+        /// Single precision.
+        Bits32 = "32",
+        /// Half precision, or whole numbers of 16 bits.
+        Bits16 = "16",
+    }
+}
 
-/// `format`: shared by all techniques with moments.
-pub(crate) const FORMAT: Param = Param {
-    name: "format",
-    help: "Bits of each stored number.",
-    unit: "",
-    kind: ParamKind::Choice { values: &["32", "16"] },
-};
+settings! {
+    /// What all techniques with moments have.
+    pub struct Filtering {
+        /// Radius of the filter, that of a disc as wide; 1 is the least. Its cost does not depend on it.
+        radius: f64 = 1.0, in 0.0..=1024.0, unit "texels",
+        /// Bits of each stored number.
+        format: Format = Format::Bits32,
+        /// Looks coarser levels up where a pixel covers many texels.
+        mips: bool = true,
+    }
+}
 
-/// `mips`: shared by all techniques with moments.
-pub(crate) const MIPS: Param = Param {
-    name: "mips",
-    help: "Looks coarser levels up where a pixel covers many texels.",
-    unit: "",
-    kind: ParamKind::Switch { default: true },
-};
+impl Filtering {
+    /// Numbers are stored in 16 bits.
+    pub(crate) fn is_half(&self) -> bool {
+        self.format == Format::Bits16
+    }
+}
 
 shader_struct! {
     /// See `moments_depth.wgsl`.
@@ -117,20 +122,19 @@ pub(crate) struct MomentStage {
 }
 
 impl MomentStage {
-    /// With the filter of `size`, `radius` and `mips` of the settings.
-    pub(crate) fn new(gpu: &Gpu, settings: &Settings, recipe: &Recipe) -> Self {
-        Self::make(gpu, settings, recipe, settings.switch("mips"), None)
+    /// Filters maps of `size` texels.
+    pub(crate) fn new(gpu: &Gpu, size: u32, filtering: &Filtering, recipe: &Recipe) -> Self {
+        Self::make(gpu, Blur::new(filtering.radius, size), recipe, filtering.mips, None)
     }
 
     /// With filters that follow the light, none narrower than `radius`. Their look-up finds taps and bounds before the moments, see
     /// `depth_maps/stages/soft_taps.wgsl` and `moments_soft.wgsl`.
-    pub(crate) fn soft(gpu: &Gpu, settings: &Settings, recipe: &Recipe, taps: Taps) -> Self {
-        Self::make(gpu, settings, recipe, true, Some(TapStage::light(gpu, taps, true)))
+    pub(crate) fn soft(gpu: &Gpu, size: u32, filtering: &Filtering, recipe: &Recipe, taps: Taps) -> Self {
+        let blur = Blur::new(filtering.radius, size);
+        Self::make(gpu, blur, recipe, true, Some(TapStage::light(gpu, taps, true)))
     }
 
-    fn make(gpu: &Gpu, settings: &Settings, recipe: &Recipe, coarser: bool, taps: Option<TapStage>) -> Self {
-        let size = settings.int("size").clamp(1, i64::from(u32::MAX)) as u32;
-        let blur = Blur::new(settings.float("radius"), size);
+    fn make(gpu: &Gpu, blur: Blur, recipe: &Recipe, coarser: bool, taps: Option<TapStage>) -> Self {
         let moments = wgpu::BindingType::Texture {
             sample_type: recipe.sample_type(),
             view_dimension: wgpu::TextureViewDimension::D2Array,
@@ -161,6 +165,10 @@ impl MomentStage {
 impl Stage for MomentStage {
     fn layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
+    }
+
+    fn takes_any_size(&self) -> bool {
+        false
     }
 
     fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &DepthMaps) -> Result<(), Error> {

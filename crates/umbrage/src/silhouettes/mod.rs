@@ -8,6 +8,7 @@ mod find;
 mod work;
 
 use crate::casters::Edges;
+use crate::choices;
 use crate::fullscreen::{STORAGE, UNIFORM, layout};
 use crate::shader::{HostConstant, Shader, Shared, shader_struct};
 use crate::{casters::Casters, error::Error, gpu::Gpu, passes::Passes};
@@ -88,15 +89,16 @@ const FLAGS: &[HostConstant] = &[
 /// Vertex numbers of one part end before those of the next one start.
 const VERTICES: u32 = 512;
 
-/// Where silhouettes are found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Extrude {
-    /// By compute shaders that list them on the GPU.
-    Compute,
-    /// Every edge is drawn, and vertex shaders collapse those that bound no shadow.
-    Vertex,
-    /// By the CPU, every frame.
-    Cpu,
+choices! {
+    /// Where silhouettes are found.
+    pub enum Extrude {
+        /// By compute shaders that list them on the GPU.
+        Compute = "compute",
+        /// Every edge is drawn, and vertex shaders collapse those that bound no shadow.
+        Vertex = "vertex",
+        /// By the CPU, every frame.
+        Cpu = "cpu",
+    }
 }
 
 /// A caster to extrude.

@@ -1,12 +1,13 @@
-//! The registry: a technique is its folder and its line here, and nothing else.
+//! The techniques that are built in: each is its folder and its line here, and nothing else.
 
-use crate::{error::Error, error::nearest, technique::TechniqueInfo};
+use crate::technique::TechniqueInfo;
 
 /// Declares the modules of the techniques and lists them.
 macro_rules! techniques {
     ($($id:ident,)*) => {
         $(pub mod $id;)*
-        static TECHNIQUES: &[&TechniqueInfo] = &[$(&$id::INFO,)*];
+        /// All that are built in, in the order in which they are best explained.
+        pub(crate) static BUILT_IN: &[&TechniqueInfo] = &[$(&$id::INFO,)*];
     };
 }
 
@@ -31,10 +32,8 @@ techniques![
     light_mask,
 ];
 
-/// All techniques, in the order in which they are best explained.
-pub fn techniques() -> &'static [&'static TechniqueInfo] {
-    TECHNIQUES
-}
+/// What looks up the maps of splits and warps where nothing is said.
+pub(crate) const DEFAULT_FILTER: &TechniqueInfo = &pcf::INFO;
 
 /// A value of a parameter that has become a technique of its own.
 #[derive(Clone, Copy, Debug)]
@@ -49,18 +48,6 @@ pub struct Renamed {
     pub to: &'static str,
 }
 
-/// Old names of techniques, which those who read names from users go on to understand.
+/// Old names of techniques, which are still understood where users write names.
 pub const RENAMED: &[Renamed] =
     &[Renamed { technique: "wedges", param: "combine", value: "bitmask", to: "light-mask" }];
-
-/// The technique that users call `id`.
-///
-/// # Errors
-/// [`Error::Unknown`] with the nearest id.
-pub fn find(id: &str) -> Result<&'static TechniqueInfo, Error> {
-    TECHNIQUES.iter().find(|t| t.id == id).copied().ok_or_else(|| Error::Unknown {
-        what: "technique",
-        name: id.into(),
-        nearest: nearest(id, TECHNIQUES.iter().map(|t| t.id)),
-    })
-}

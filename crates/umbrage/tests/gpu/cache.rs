@@ -22,7 +22,7 @@ impl Pair {
         let [kept, drawn] = ["on", "off"].map(|cache| {
             let info = find(id).unwrap();
             let settings = info.settings(&pairs(&format!("size=128,{set},cache={cache}"))).unwrap();
-            let technique = info.make(gpu, &settings).unwrap();
+            let technique = settings.make(gpu).unwrap();
             Renderer::new(gpu, &scene, 96, 72, vec![LightPass { light, technique }]).unwrap()
         });
         let (gpu, camera) = (gpu.clone(), scene.camera.clone());
@@ -181,7 +181,7 @@ fn a_dropped_encoder_leaves_nothing_behind() {
     let gpu = gpu();
     let scene = scene("primitives", 0.1);
     let info = find("shadow-map").unwrap();
-    let mut technique = info.make(&gpu, &info.settings(&pairs("size=64")).unwrap()).unwrap();
+    let mut technique = info.settings(&pairs("size=64")).unwrap().make(&gpu).unwrap();
     let casters = Casters::new(&gpu, &scene).unwrap();
     let depth = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: None,
@@ -208,7 +208,7 @@ fn a_dropped_encoder_leaves_nothing_behind() {
         if submit {
             gpu.queue.submit([encoder.finish()]);
         }
-        technique.stats().draws
+        technique.inside().stats().draws
     };
     let first = frame(false);
     assert_eq!(frame(true), first, "nothing was drawn in the frame that was dropped");

@@ -7,7 +7,7 @@ use umbrage::find;
 const SIZE: (u32, u32) = (320, 240);
 
 fn filters() -> &'static [&'static str] {
-    let filter = find("cascaded").unwrap().params.iter().find(|p| p.name == "filter").unwrap();
+    let filter = find("cascaded").unwrap().params().iter().find(|p| p.name == "filter").unwrap();
     let umbrage::ParamKind::Choice { values } = &filter.kind else { panic!("a choice") };
     values
 }
@@ -107,7 +107,7 @@ fn steady_views_with_a_margin_stay_while_the_camera_moves() {
         let step = DVec3::new(0.02 * f64::from(i), 0.0, 0.01 * f64::from(i));
         let camera = Camera { eye: city.camera.eye + step, target: city.camera.target + step, ..city.camera.clone() };
         r.frame(&camera).unwrap();
-        let views = r.technique(0).unwrap().light_views().to_vec();
+        let views = r.technique(0).unwrap().inside().light_views().to_vec();
         assert_eq!(views.len(), 4);
         changes += usize::from(before.replace(views.clone()).is_some_and(|b| b != views));
     }

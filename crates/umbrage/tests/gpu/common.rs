@@ -26,7 +26,7 @@ pub fn scene(id: &str, detail: f32) -> Scene {
 /// A renderer with one technique on one light.
 pub fn renderer(gpu: &Gpu, scene: &Scene, light: usize, id: &str, set: &str, size: (u32, u32)) -> Renderer {
     let info = find(id).unwrap();
-    let technique = info.make(gpu, &info.settings(&pairs(set)).unwrap()).unwrap();
+    let technique = info.settings(&pairs(set)).unwrap().make(gpu).unwrap();
     Renderer::new(gpu, scene, size.0, size.1, vec![LightPass { light, technique }]).unwrap()
 }
 
@@ -59,8 +59,8 @@ pub fn score_frame(renderer: &mut Renderer, scene: &Scene, light: usize, size: (
     let mask = mask(&truth, &geometry, 60.0);
     let technique = renderer.technique(0).unwrap();
     let reach = map_reach(
-        technique.light_views(),
-        technique.split_distances(),
+        technique.inside().light_views(),
+        technique.inside().split_distances(),
         &scene.camera,
         &geometry.depth,
         &geometry.normal,

@@ -4,7 +4,7 @@ use crate::common::{against_truth, gpu, mask, pairs, renderer, scene, visibility
 use crate::shared_references::{self, size, stored};
 use umbrage::core::glam::{DMat3, DVec2, DVec3, Vec3};
 use umbrage::core::{Image, Light, LightShape, Mesh, Scene};
-use umbrage::{Gpu, ParamKind, TechniqueInfo, techniques};
+use umbrage::{Gpu, ParamKind, Registry, TechniqueInfo, techniques};
 use umbrage_io::stored::StoredReference;
 use umbrage_metrics::{TOLERANCE, interior, map_reach};
 use umbrage_reference::{Options, Tracer};
@@ -14,7 +14,7 @@ const SMALL: (u32, u32) = (64, 48);
 
 /// All techniques with maps.
 fn filters() -> impl Iterator<Item = &'static TechniqueInfo> {
-    techniques().iter().copied().filter(|info| info.params.iter().any(|p| p.name == "size"))
+    techniques().iter().copied().filter(|info| info.params().iter().any(|p| p.name == "size"))
 }
 
 /// Those that make penumbrae as wide as the light does, and none where it has no width; with their settings.
@@ -22,7 +22,7 @@ const FOLLOW_THE_LIGHT: [(&str, &str); 2] = [("pcss", ""), ("pcss-jitter", "")];
 
 /// All techniques with maps as they are by themselves, and those that can follow the light doing so.
 fn variants() -> impl Iterator<Item = (&'static TechniqueInfo, &'static str)> {
-    let follows = |info: &TechniqueInfo| info.params.iter().any(|p| p.name == "softness");
+    let follows = |info: &TechniqueInfo| info.params().iter().any(|p| p.name == "softness");
     filters().flat_map(move |info| [(info, "")].into_iter().chain(follows(info).then_some((info, "softness=light"))))
 }
 
@@ -121,7 +121,7 @@ fn odd_lights_give_shares() {
     let scene = under(lights[0].1.clone());
     let mut all = Vec::new();
     for (info, variant) in variants() {
-        let focuses = info.params.iter().any(|p| p.name == "focus").then_some("size=256,focus=light");
+        let focuses = info.params().iter().any(|p| p.name == "focus").then_some("size=256,focus=light");
         for set in ["size=256", "size=1"].into_iter().chain(focuses) {
             let set = joined(set, variant);
             all.extend(faults(&mut renderer(&gpu, &scene, 0, info.id, &set, SMALL), &scene, &lights, info));
@@ -135,10 +135,12 @@ fn extreme_settings(info: &TechniqueInfo) -> Vec<String> {
     let of = |kind: ParamKind| match kind {
         ParamKind::Int { min, max, .. } => vec![min.to_string(), max.to_string()],
         ParamKind::Float { min, max, .. } => vec![min.to_string(), max.to_string()],
-        ParamKind::Choice { values } => values.iter().map(ToString::to_string).collect(),
+        ParamKind::Choice { .. } | ParamKind::Filter { .. } => {
+            kind.words(&Registry::default()).into_iter().map(String::from).collect()
+        }
         ParamKind::Switch { .. } => vec!["on".into(), "off".into()],
     };
-    let sized = info.params.iter().filter(|p| p.name != "size");
+    let sized = info.params().iter().filter(|p| p.name != "size");
     let one = sized.flat_map(|p| of(p.kind).into_iter().map(|value| format!("size=128,{}={value}", p.name)));
     one.chain(["size=1".into(), "size=2".into(), "size=3".into(), "size=129".into()]).collect()
 }
@@ -164,11 +166,11 @@ fn a_map_that_is_too_large_is_an_error_that_says_how_large_it_may_be() {
     let gpu = gpu();
     let limit = i64::from(gpu.device.limits().max_texture_dimension_2d);
     for info in filters() {
-        let size = info.params.iter().find(|p| p.name == "size").unwrap();
+        let size = info.params().iter().find(|p| p.name == "size").unwrap();
         let ParamKind::Int { max, .. } = size.kind else { panic!("{}: size is no whole number", info.id) };
         let largest = max.min(limit);
         let set = pairs(&format!("size={}", largest + 1));
-        let error = info.settings(&set).and_then(|settings| info.make(&gpu, &settings)).err().expect("an error");
+        let error = info.settings(&set).and_then(|settings| settings.make(&gpu)).err().expect("an error");
         assert!(error.to_string().contains(&largest.to_string()), "{}: {error}", info.id);
     }
 }
@@ -262,8 +264,8 @@ fn means(gpu: &Gpu, scene: &Scene, light: usize, (id, variant): (&str, &str), si
         let counted: &Image<bool> = counted.get_or_insert_with(|| {
             let technique = renderer.technique(0).unwrap();
             let reach = map_reach(
-                technique.light_views(),
-                technique.split_distances(),
+                technique.inside().light_views(),
+                technique.inside().split_distances(),
                 &scene.camera,
                 &geometry.depth,
                 &geometry.normal,
@@ -308,8 +310,8 @@ fn scores(gpu: &Gpu, scene: &Scene, light: usize, (id, variant): (&str, &str), s
     let produced = visibility(&mut renderer, scene);
     let technique = renderer.technique(0).unwrap();
     let reach = map_reach(
-        technique.light_views(),
-        technique.split_distances(),
+        technique.inside().light_views(),
+        technique.inside().split_distances(),
         &scene.camera,
         &stored.depth,
         &stored.normal.map(|n| (*n).into()),

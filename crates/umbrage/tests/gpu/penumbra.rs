@@ -239,7 +239,7 @@ fn brute_force_has_the_penumbrae_of_the_closed_form() {
     // So the closed form, the camera and the measurement are right.
     let gpu = gpu();
     let info = find("shadow-map").unwrap();
-    let make = || light_samples(info, &gpu, &info.settings(&pairs("size=512")).unwrap(), 128).unwrap();
+    let make = || light_samples(&gpu, &info.settings(&pairs("size=512")).unwrap(), 128).unwrap();
     let results = results(&every_case(), make, &gpu);
     let wrong: Vec<&str> = results.iter().filter(|(_, right)| !right).map(|(row, _)| row.as_str()).collect();
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), results.len(), wrong.join("\n"));
@@ -250,7 +250,7 @@ fn a_filter_of_constant_width_has_others() {
     // So a technique that does not know the light's size can't pass.
     let gpu = gpu();
     let info = find("pcf").unwrap();
-    let make = || info.make(&gpu, &info.settings(&[]).unwrap()).unwrap();
+    let make = || info.settings(&[]).unwrap().make(&gpu).unwrap();
     let right: Vec<String> =
         results(&every_case(), make, &gpu).into_iter().filter(|(_, right)| *right).map(|(row, _)| row).collect();
     assert!(right.is_empty(), "{}", right.join("\n"));
@@ -263,7 +263,7 @@ fn follows_the_light(cases: &[Case]) {
     // 0.13: both lights are large for their distance.
     for (id, set) in [("pcss", "search=7"), ("pcss-jitter", "")] {
         let info = find(id).unwrap();
-        let make = || info.make(&gpu, &info.settings(&pairs(set)).unwrap()).unwrap();
+        let make = || info.settings(&pairs(set)).unwrap().make(&gpu).unwrap();
         for (row, right) in results(cases, make, &gpu) {
             println!("{id:12} {row}");
             if !right {

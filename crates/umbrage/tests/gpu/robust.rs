@@ -101,7 +101,7 @@ fn sizes_are_checked() {
     assert!(info.settings(&pairs("size=0")).is_err());
     for samples in [0, 1_000_000] {
         let settings = info.settings(&[]).unwrap();
-        assert!(matches!(light_samples(info, &gpu, &settings, samples), Err(Error::Size { .. })));
+        assert!(matches!(light_samples(&gpu, &settings, samples), Err(Error::Size { .. })));
     }
 }
 
@@ -110,7 +110,7 @@ fn a_light_that_is_not_there_is_an_error() {
     let gpu = gpu();
     let scene = box_scene(every_light()[0].clone());
     let info = find("none").unwrap();
-    let technique = info.make(&gpu, &info.settings(&[]).unwrap()).unwrap();
+    let technique = info.settings(&[]).unwrap().make(&gpu).unwrap();
     let error = Renderer::new(&gpu, &scene, 8, 8, vec![LightPass { light: 7, technique }]).err().expect("an error");
     assert!(error.to_string().contains("no light 7"), "{error}");
 }
@@ -158,7 +158,7 @@ fn a_light_in_two_passes_is_an_error() {
     let scene = box_scene(every_light()[0].clone());
     let make = || {
         let info = find("shadow-map").unwrap();
-        LightPass { light: 0, technique: info.make(&gpu, &info.settings(&[]).unwrap()).unwrap() }
+        LightPass { light: 0, technique: info.settings(&[]).unwrap().make(&gpu).unwrap() }
     };
     let twice = Renderer::new(&gpu, &scene, 8, 8, vec![make(), make()]).err().expect("an error");
     assert!(twice.to_string().contains("two passes"), "{twice}");
@@ -232,7 +232,7 @@ fn soft_lights_are_refused_where_a_technique_is_not_hard() {
     let gpu = gpu();
     let info = find("pcf").unwrap();
     let settings = info.settings(&[]).unwrap();
-    let error = light_samples(info, &gpu, &settings, 16).err().expect("an error");
+    let error = light_samples(&gpu, &settings, 16).err().expect("an error");
     assert!(error.to_string().contains("not a hard technique"), "{error}");
     assert!(find("none").unwrap().supports(LightKind::Rect).is_ok());
     assert!(find("shadowmap").unwrap_err().to_string().contains("did you mean `shadow-map`"));

@@ -13,8 +13,8 @@ fn scores(mut renderer: Renderer, scene: &Scene, stored: &StoredReference, hard:
     let mask = mask(stored);
     let technique = renderer.technique(0).unwrap();
     let reach = map_reach(
-        technique.light_views(),
-        technique.split_distances(),
+        technique.inside().light_views(),
+        technique.inside().split_distances(),
         &scene.camera,
         &stored.depth,
         &stored.normal.map(|n| (*n).into()),
@@ -70,7 +70,7 @@ fn shadow_maps_have_neither_acne_nor_leaks() {
 fn brute_force(gpu: &Gpu, scene: &Scene, light: usize, samples: u32, size: (u32, u32)) -> Renderer {
     let info = find("shadow-map").unwrap();
     let settings = info.settings(&pairs("size=1024")).unwrap();
-    let technique = light_samples(info, gpu, &settings, samples).unwrap();
+    let technique = light_samples(gpu, &settings, samples).unwrap();
     Renderer::new(gpu, scene, size.0, size.1, vec![LightPass { light, technique }]).unwrap()
 }
 

@@ -21,8 +21,8 @@ fn nothing_is_created_after_the_first_frames() {
     let gpu = gpu();
     let scene = scene("primitives", 1.0);
     let brute = find("shadow-map").unwrap();
-    let brute = light_samples(brute, &gpu, &brute.settings(&pairs("size=64")).unwrap(), 8).unwrap();
-    let plain = techniques().iter().map(|info| (info.id, info.make(&gpu, &info.settings(&[]).unwrap()).unwrap()));
+    let brute = light_samples(&gpu, &brute.settings(&pairs("size=64")).unwrap(), 8).unwrap();
+    let plain = techniques().iter().map(|info| (info.id, info.settings(&[]).unwrap().make(&gpu).unwrap()));
     for (id, technique) in plain.chain([("light samples", brute)]) {
         let mut renderer = Renderer::new(&gpu, &scene, 160, 120, vec![LightPass { light: 0, technique }]).unwrap();
         let mut camera = scene.camera.clone();

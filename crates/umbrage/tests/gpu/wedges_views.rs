@@ -10,13 +10,13 @@ use umbrage_renderer::{LightPass, Renderer};
 /// The picture of `view`, and the visibility beside it.
 fn picture(gpu: &umbrage::Gpu, scene: &Scene, set: &str, view: Option<&str>) -> (Option<Image<[u8; 4]>>, Image<f32>) {
     let info = find("wedges").unwrap();
-    let mut technique = info.make(gpu, &info.settings(&pairs(set)).unwrap()).unwrap();
-    technique.inspect(view);
+    let mut technique = info.settings(&pairs(set)).unwrap().make(gpu).unwrap();
+    technique.inside_mut().inspect(view);
     let pass = LightPass { light: 0, technique };
     let mut renderer = Renderer::new(gpu, scene, 160, 120, vec![pass]).unwrap();
     renderer.frame(&scene.camera).unwrap();
     renderer.frame(&scene.camera).unwrap();
-    let shown = renderer.technique(0).unwrap().debug_views();
+    let shown = renderer.technique(0).unwrap().inside().debug_views();
     assert_eq!(shown.iter().map(|v| v.name).collect::<Vec<_>>(), view.into_iter().collect::<Vec<_>>());
     let picture = shown.first().map(|v| renderer.read_debug_color(v).unwrap());
     (picture, renderer.visibility(0).unwrap())

@@ -1,10 +1,10 @@
 //! A filter of one width.
 
-use super::growth;
-use crate::depth_maps::MapTechnique;
+use super::{Components, Evsm};
+use crate::depth_maps::{MapSetup, MapTechnique};
 use crate::moment_maps::{Coding, MomentStage, Recipe};
 use crate::shader::{Module, Shader};
-use crate::{error::Error, gpu::Gpu, params::Settings};
+use crate::{error::Error, gpu::Gpu};
 
 const MODULES: &[Module] = &[
     Module { name: "moments", source: include_str!("moments.wgsl") },
@@ -16,22 +16,22 @@ pub(super) const PASSES: Shader =
     Shader::new("evsm moments", "// needs: moments_passes, moments_float, moments").with_modules(MODULES);
 pub(super) const LOOKUP: Shader = Shader::new("evsm", "// needs: evsm, moments_float").with_modules(MODULES);
 
-pub(super) fn make(gpu: &Gpu, settings: &Settings) -> Result<MapTechnique, Error> {
-    let half = settings.choice("format") == "16";
+pub(super) fn make(evsm: &Evsm, gpu: &Gpu, maps: &MapSetup) -> Result<MapTechnique, Error> {
+    let half = evsm.filtering.is_half();
     let coding = if half { Coding::Half } else { Coding::Single };
-    let channels = if settings.choice("components") == "2" { 2 } else { 4 };
-    let growth = growth(settings, if half { 5.54 } else { 42.0 });
+    let channels = if evsm.components == Components::Two { 2 } else { 4 };
+    let growth = evsm.growth(maps.size, if half { 5.54 } else { 42.0 });
     let warps = [("GROWTH", growth), ("DECAY", growth)];
     let recipe = Recipe { passes: PASSES, channels, coding, constants: warps.to_vec() };
-    let stage = MomentStage::new(gpu, settings, &recipe);
+    let stage = MomentStage::new(gpu, maps.size, &evsm.filtering, &recipe);
     let reach = stage.reach();
     let constants = [
         warps[0],
         warps[1],
         ("COMPONENTS", f64::from(channels)),
-        ("MIPS", f64::from(u8::from(settings.switch("mips")))),
-        ("BLEEDING", settings.float("bleeding")),
+        ("MIPS", f64::from(u8::from(evsm.filtering.mips))),
+        ("BLEEDING", evsm.bleeding),
         ("LEAST_VARIANCE", if half { 2e-3 } else { 1e-6 }),
     ];
-    MapTechnique::staged(gpu, settings, &LOOKUP, reach, &constants, Some(Box::new(stage)))
+    MapTechnique::staged(gpu, maps, &LOOKUP, reach, &constants, Some(Box::new(stage)))
 }

@@ -5,36 +5,54 @@
 mod fixed;
 mod soft;
 
-use crate::depth_maps::{BIAS, BOUNDS_SHADER, CACHE, FACES, FOCUS, LAYER_NAMES, LIGHTS, OMNI, SHADERS, SIZE};
-use crate::moment_maps::{FORMAT, MIPS, RADIUS};
-use crate::params::{Param, ParamKind, Settings};
-use crate::technique::TechniqueInfo;
+use crate::depth_maps::{BOUNDS_SHADER, Cover, Depth, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS};
+use crate::moment_maps::Filtering;
+use crate::settings::Configure;
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::{Error, Filter, FilterUse, Gpu, choices, settings};
 
-const SOFTNESS: Param = Param {
-    name: "softness",
-    help: "Width of penumbras: that of the filter, or what the light's size and the blocker's distance make it.",
-    unit: "",
-    kind: ParamKind::Choice { values: &["fixed", "light"] },
-};
+choices! {
+    /// What makes penumbras wide.
+    pub enum Width {
+        /// The filter.
+        Fixed = "fixed",
+        /// The light's size and the blocker's distance.
+        Light = "light",
+    }
+}
 
-const COMPONENTS: Param = Param {
-    name: "components",
-    help: "Numbers a texel: 4 for a growing and a falling exponential, 2 for the growing one alone. Of `softness = fixed`.",
-    unit: "",
-    kind: ParamKind::Choice { values: &["4", "2"] },
-};
+choices! {
+    /// Numbers a texel.
+    pub enum Components {
+        /// For a growing and a falling exponential.
+        Four = "4",
+        /// For the growing one alone.
+        Two = "2",
+    }
+}
 
-const BLEEDING: Param = Param {
-    name: "bleeding",
-    help: "Shares of light up to this count as none, the rest is stretched: takes light that bleeds through off.",
-    unit: "",
-    kind: ParamKind::Float { min: 0.0, max: 0.9, default: 0.1 },
-};
+settings! {
+    /// See the module.
+    pub struct Evsm {
+        #[flatten] map: Map,
+        #[flatten] cover: Cover,
+        #[flatten] filtering: Filtering,
+        /// Width of penumbras: that of the filter, or what the light's size and the blocker's distance make it.
+        softness: Width = Width::Fixed,
+        /// Numbers a texel: 4 for a growing and a falling exponential, 2 for the growing one alone. Of `softness = fixed`.
+        components: Components = Components::Four,
+        /// Shares of light up to this count as none, the rest is stretched: takes light that bleeds through off.
+        bleeding: f64 = 0.1, in 0.0..=0.9,
+    }
+}
 
-/// Steepness of the growing exponential over half the range of depth. Its square is to stay in the format's range; and within a filter as
-/// wide as `radius` depth changes by more where the map is coarser, and a steep exponential then sees the nearest of it alone.
-fn growth(settings: &Settings, steepest: f64) -> f64 {
-    f64::min(steepest, 0.25 * settings.int("size") as f64 / settings.float("radius").max(1.0))
+impl Evsm {
+    /// Steepness of the growing exponential over half the range of depth. Its square is to stay in the format's range; and
+    /// within a filter as wide as `radius` depth changes by more where the map is coarser, and a steep exponential then sees
+    /// the nearest of it alone.
+    fn growth(&self, size: u32, steepest: f64) -> f64 {
+        f64::min(steepest, 0.25 * f64::from(size) / self.filtering.radius.max(1.0))
+    }
 }
 
 /// See the module.
@@ -43,10 +61,12 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     title: "Exponential variance shadow maps",
     summary: "Variance shadow maps of exponentials of depth, which part receiver and blocker and keep light from bleeding.",
     source: "FE 2.3.1",
+    family: Family::MomentMaps,
+    filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, SOFTNESS, RADIUS, COMPONENTS, BLEEDING, FORMAT, MIPS, FACES, OMNI, FOCUS, CACHE, BIAS],
+    settings: SettingsOf::new::<Evsm>(),
     views: &LAYER_NAMES,
     shaders: &[
         SHADERS[0],
@@ -61,8 +81,27 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
         soft::LOOKUP_16,
     ],
     readme: include_str!("README.md"),
-    make: |gpu, settings| {
-        let make = if settings.choice("softness") == "light" { soft::make } else { fixed::make };
-        Ok(Box::new(make(gpu, settings)?.with_every_caster()))
-    },
 };
+
+impl Configure for Evsm {
+    const INFO: &'static TechniqueInfo = &INFO;
+
+    fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        self.make_on(gpu, &self.map.covering(&self.cover, Depth::Projective))
+    }
+
+    fn as_filter(&self) -> Option<&dyn Filter> {
+        Some(self)
+    }
+
+    fn maps(&self) -> Option<MapSetup> {
+        Some(self.map.covering(&self.cover, Depth::Projective))
+    }
+}
+
+impl Filter for Evsm {
+    fn make_on(&self, gpu: &Gpu, maps: &MapSetup) -> Result<Box<dyn Technique>, Error> {
+        let make = if self.softness == Width::Light { soft::make } else { fixed::make };
+        Ok(Box::new(make(self, gpu, maps)?.with_every_caster()))
+    }
+}

@@ -1,10 +1,10 @@
 //! A filter that follows the light.
 
-use super::growth;
-use crate::depth_maps::{MapTechnique, Taps};
+use super::Evsm;
+use crate::depth_maps::{MapSetup, MapTechnique, Taps};
 use crate::moment_maps::{Coding, MomentStage, Recipe};
 use crate::shader::{Module, Shader};
-use crate::{error::Error, gpu::Gpu, params::Settings};
+use crate::{error::Error, gpu::Gpu};
 
 const MODULES: &[Module] = &[
     Module { name: "soft_moments", source: include_str!("soft_moments.wgsl") },
@@ -26,21 +26,21 @@ pub(super) const LOOKUP_16: Shader = shader("soft evsm, 16 bits", "// needs: sof
 const SEARCH: u32 = 24;
 const FILTER: u32 = 20;
 
-pub(super) fn make(gpu: &Gpu, settings: &Settings) -> Result<MapTechnique, Error> {
-    let half = settings.choice("format") == "16";
+pub(super) fn make(evsm: &Evsm, gpu: &Gpu, maps: &MapSetup) -> Result<MapTechnique, Error> {
+    let half = evsm.filtering.is_half();
     let (passes, lookup, coding) =
         if half { (PASSES_16, LOOKUP_16, Coding::Unorm) } else { (PASSES, LOOKUP, Coding::Single) };
-    let growth = ("GROWTH", growth(settings, if half { 5.54 } else { 42.0 }));
+    let growth = ("GROWTH", evsm.growth(maps.size, if half { 5.54 } else { 42.0 }));
     let recipe = Recipe { passes, channels: 4, coding, constants: vec![growth] };
-    let stage = MomentStage::soft(gpu, settings, &recipe, Taps::even(SEARCH, FILTER));
+    let stage = MomentStage::soft(gpu, maps.size, &evsm.filtering, &recipe, Taps::even(SEARCH, FILTER));
     let reach = stage.reach();
     let constants = [
         growth,
         ("SEARCH", f64::from(SEARCH)),
         ("FILTER", f64::from(FILTER)),
-        ("BLEEDING", settings.float("bleeding")),
+        ("BLEEDING", evsm.bleeding),
         ("LEAST_VARIANCE", if half { 2e-3 } else { 1e-6 }),
         ("LEAST_DEPTH_VARIANCE", if half { 3e-5 } else { 1e-7 }),
     ];
-    Ok(MapTechnique::staged(gpu, settings, &lookup, reach, &constants, Some(Box::new(stage)))?.soft())
+    Ok(MapTechnique::staged(gpu, maps, &lookup, reach, &constants, Some(Box::new(stage)))?.soft())
 }

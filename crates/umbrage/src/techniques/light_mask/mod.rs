@@ -11,24 +11,20 @@ mod samples;
 mod technique;
 mod tree;
 
-use crate::params::{Param, ParamKind};
-use crate::technique::TechniqueInfo;
+use crate::settings::Configure;
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::{Error, Gpu, settings};
 use umbrage_core::LightKinds;
 
-const PARAMS: &[Param] = &[
-    Param {
-        name: "samples",
-        help: "Samples of the light; rounded up to a multiple of 32.",
-        unit: "",
-        kind: ParamKind::Int { min: 32, max: 256, default: 256 },
-    },
-    Param {
-        name: "radius",
-        help: "Radius of point and spot lights, which are hard without one.",
-        unit: "m",
-        kind: ParamKind::Float { min: 0.0, max: 1000.0, default: 0.0 },
-    },
-];
+settings! {
+    /// See the module.
+    pub struct LightMask {
+        /// Samples of the light; rounded up to a multiple of 32.
+        samples: u32 = 256, in 32..=256,
+        /// Radius of point and spot lights, which are hard without one.
+        radius: f64 = 0.0, in 0.0..=1000.0, unit "m",
+    }
+}
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
@@ -37,15 +33,21 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     summary: "Strikes out what every triangle hides of the light's samples: right for any triangles, wherever casters overlap, \
               to within the number of samples.",
     source: "Schwarz and Stamminger 2007; Sintorn et al. 2008",
+    family: Family::AreaLights,
+    filter: None,
     lights: LightKinds::ALL,
     features: wgpu::Features::empty(),
     hard: false,
-    params: PARAMS,
+    settings: SettingsOf::new::<LightMask>(),
     views: &[],
     shaders: &[mask::MASK_SHADER],
     readme: include_str!("README.md"),
-    make: |_, settings| {
-        let samples = settings.int("samples") as u32;
-        Ok(Box::new(technique::LightMask::new(samples, settings.float("radius"))))
-    },
 };
+
+impl Configure for LightMask {
+    const INFO: &'static TechniqueInfo = &INFO;
+
+    fn build(&self, _: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        Ok(Box::new(technique::LightMask::new(self.samples, self.radius)))
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::mask::Mask;
 use crate::area_light::{Form, casters_in_view, is_on_a_caster};
-use crate::technique::{Stats, Technique};
+use crate::technique::{Inside, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
 use umbrage_core::glam::DVec3;
 
@@ -63,6 +63,16 @@ impl Technique for LightMask {
         Ok(())
     }
 
+    fn inside(&self) -> &dyn Inside {
+        self
+    }
+
+    fn inside_mut(&mut self) -> &mut dyn Inside {
+        self
+    }
+}
+
+impl Inside for LightMask {
     fn stats(&self) -> Stats {
         let chosen = self.chosen.len() as u32;
         Stats {

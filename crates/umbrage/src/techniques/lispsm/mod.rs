@@ -2,11 +2,24 @@
 //!
 //! Sources: Wimmer, Scherzer and Purgathofer, "Light Space Perspective Shadow Maps", 2004; SG "Perspective Shadow Maps".
 
-use crate::depth_maps::{
-    BIAS, CACHE, FACES, FILTER_KERNEL, LAYER_NAMES, LIGHTS, SHADERS, SIZE, STRENGTH, WARPED_FILTER,
-};
-use crate::technique::TechniqueInfo;
-use crate::techniques::find;
+use crate::depth_maps::{Fitting, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS, Softness};
+use crate::settings::Configure;
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::{Error, FilterId, Gpu, settings};
+use umbrage_core::light_view::Warp;
+
+settings! {
+    /// See the module.
+    pub struct Lispsm {
+        #[flatten] map: Map,
+        /// The technique that looks the map up, with its own defaults but for the parameters that are set here.
+        filter: FilterId<true> = FilterId::default(),
+        /// Of `pcf`, see there.
+        kernel: Kernel = Kernel::Hardware,
+        /// How strong the warp is: 1 gives errors of the projection the same size near and far, 0 a uniform map.
+        strength: f64 = 1.0, in 0.0..=100.0, live true,
+    }
+}
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
@@ -14,15 +27,32 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     title: "Light-space perspective shadow map",
     summary: "Warps the depth map along the view by a perspective across the light, as much as makes errors near and far the same.",
     source: "SG \"Perspective Shadow Maps\"; Wimmer et al. 2004",
+    family: Family::FittedMaps,
+    filter: None,
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, WARPED_FILTER, FILTER_KERNEL, STRENGTH, FACES, CACHE, BIAS],
+    settings: SettingsOf::new::<Lispsm>(),
     views: &LAYER_NAMES,
     shaders: &SHADERS,
     readme: include_str!("README.md"),
-    make: |gpu, settings| {
-        let filter = find(settings.choice("filter"))?;
-        filter.make(gpu, &settings.with_defaults_of(filter.params))
-    },
 };
+
+impl Configure for Lispsm {
+    const INFO: &'static TechniqueInfo = &INFO;
+
+    fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        self.filter.make_on(gpu, &self.setup())
+    }
+
+    fn maps(&self) -> Option<MapSetup> {
+        Some(self.setup())
+    }
+}
+
+impl Lispsm {
+    fn setup(&self) -> MapSetup {
+        let warp = Warp::LightSpace { strength: self.strength };
+        self.map.fitted(Fitting::Warp(warp), Softness::Texels(self.kernel))
+    }
+}

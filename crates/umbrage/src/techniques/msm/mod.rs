@@ -2,13 +2,12 @@
 //!
 //! Source: Peters and Klein, "Moment Shadow Mapping", 2015.
 
-use crate::depth_maps::{
-    BIAS, CACHE, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE,
-};
-use crate::moment_maps::{Coding, FORMAT, MIPS, MomentStage, RADIUS, Recipe};
-use crate::params::{Param, ParamKind};
+use crate::depth_maps::{Cover, Depth, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS};
+use crate::moment_maps::{Coding, Filtering, MomentStage, Recipe};
+use crate::settings::Configure;
 use crate::shader::{Module, Shader};
-use crate::technique::TechniqueInfo;
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::{Error, Filter, FilterUse, Gpu, settings};
 
 const MODULES: &[Module] = &[
     Module { name: "moments", source: include_str!("moments.wgsl") },
@@ -24,12 +23,16 @@ const PASSES_16: Shader = shader("msm moments, 16 bits", "// needs: moments_pass
 const LOOKUP: Shader = shader("msm", "// needs: msm, moments_float");
 const LOOKUP_16: Shader = shader("msm, 16 bits", "// needs: msm, moments_unorm");
 
-const BLEEDING: Param = Param {
-    name: "bleeding",
-    help: "Shares of light up to this count as none, the rest is stretched: takes light that bleeds through off.",
-    unit: "",
-    kind: ParamKind::Float { min: 0.0, max: 0.9, default: 0.1 },
-};
+settings! {
+    /// See the module.
+    pub struct Msm {
+        #[flatten] map: Map,
+        #[flatten] cover: Cover,
+        #[flatten] filtering: Filtering,
+        /// Shares of light up to this count as none, the rest is stretched: takes light that bleeds through off.
+        bleeding: f64 = 0.1, in 0.0..=0.9,
+    }
+}
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
@@ -37,27 +40,47 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     title: "Moment shadow maps",
     summary: "Filters four powers of depth; the sharpest bound on the share of light that they give.",
     source: "beyond: Peters and Klein 2015",
+    family: Family::MomentMaps,
+    filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, RADIUS, BLEEDING, FORMAT, MIPS, FACES, OMNI, FOCUS, CACHE, BIAS],
+    settings: SettingsOf::new::<Msm>(),
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], PASSES, PASSES_16, LOOKUP, LOOKUP_16],
     readme: include_str!("README.md"),
-    make: |gpu, settings| {
-        let half = settings.choice("format") == "16";
+};
+
+impl Configure for Msm {
+    const INFO: &'static TechniqueInfo = &INFO;
+
+    fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        self.make_on(gpu, &self.map.covering(&self.cover, Depth::Projective))
+    }
+
+    fn as_filter(&self) -> Option<&dyn Filter> {
+        Some(self)
+    }
+
+    fn maps(&self) -> Option<MapSetup> {
+        Some(self.map.covering(&self.cover, Depth::Projective))
+    }
+}
+
+impl Filter for Msm {
+    fn make_on(&self, gpu: &Gpu, maps: &MapSetup) -> Result<Box<dyn Technique>, Error> {
+        let half = self.filtering.is_half();
         let (passes, lookup, coding) =
             if half { (PASSES_16, LOOKUP_16, Coding::Unorm) } else { (PASSES, LOOKUP, Coding::Single) };
         let recipe = Recipe { passes, channels: 4, coding, constants: Vec::new() };
-        let stage = MomentStage::new(gpu, settings, &recipe);
+        let stage = MomentStage::new(gpu, maps.size, &self.filtering, &recipe);
         let reach = stage.reach();
-        let on = |name| if settings.switch(name) { 1.0 } else { 0.0 };
         let constants = [
-            ("MIPS", on("mips")),
-            ("BLEEDING", settings.float("bleeding")),
+            ("MIPS", f64::from(u8::from(self.filtering.mips))),
+            ("BLEEDING", self.bleeding),
             ("MOMENT_BIAS", if half { 6e-5 } else { 1e-5 }),
         ];
-        let maps = MapTechnique::staged(gpu, settings, &lookup, reach, &constants, Some(Box::new(stage)))?;
+        let maps = MapTechnique::staged(gpu, maps, &lookup, reach, &constants, Some(Box::new(stage)))?;
         Ok(Box::new(maps.with_every_caster()))
-    },
-};
+    }
+}

@@ -4,11 +4,26 @@ use crate::{
     error::Error,
     gpu::Gpu,
     passes::Passes,
-    technique::{Stats, Technique, TechniqueInfo},
+    settings,
+    settings::Configure,
+    technique::{Family, Inside, SettingsOf, Stats, Technique, TechniqueInfo},
     view::View,
     visibility::VisibilityTarget,
 };
 use umbrage_core::LightKinds;
+
+settings! {
+    /// See the module; there is nothing to set.
+    pub struct NoShadow {}
+}
+
+impl Configure for NoShadow {
+    const INFO: &'static TechniqueInfo = &INFO;
+
+    fn build(&self, _: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        Ok(Box::new(Unshadowed))
+    }
+}
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
@@ -16,28 +31,39 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     title: "No shadow",
     summary: "Every point sees the whole light; the control.",
     source: "ZA 5.4",
+    family: Family::Control,
+    filter: None,
     lights: LightKinds::ALL,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[],
+    settings: SettingsOf::new::<NoShadow>(),
     views: &[],
     shaders: &[],
     readme: include_str!("README.md"),
-    make: |_, _| Ok(Box::new(None)),
 };
 
-struct None;
+struct Unshadowed;
 
-impl Technique for None {
+impl Technique for Unshadowed {
     fn prepare(&mut self, _: &Gpu, _: &View<'_>) -> Result<(), Error> {
         Ok(())
     }
 
     fn record(&mut self, passes: &mut Passes<'_>, _: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
-        passes.render("clear", &[visibility.overwrite()], Option::None);
+        passes.render("clear", &[visibility.overwrite()], None);
         Ok(())
     }
 
+    fn inside(&self) -> &dyn Inside {
+        self
+    }
+
+    fn inside_mut(&mut self) -> &mut dyn Inside {
+        self
+    }
+}
+
+impl Inside for Unshadowed {
     fn stats(&self) -> Stats {
         Stats::default()
     }

@@ -7,12 +7,11 @@ mod blur;
 mod technique;
 mod tiles;
 
-use crate::depth_maps::{
-    BIAS, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE,
-};
-use crate::params::{Param, ParamKind};
+use crate::depth_maps::{Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage};
+use crate::settings::Configure;
 use crate::shader::{Module, Shader};
-use crate::technique::TechniqueInfo;
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::{Error, Filter, FilterUse, Gpu, choices, settings};
 use blur::{Blur, ScreenBlur};
 use technique::Blurred;
 
@@ -34,31 +33,35 @@ const ROWS_SHADER: Shader = shader("pcf-blur rows", include_str!("rows.wgsl"));
 const COLUMNS_SHADER: Shader = shader("pcf-blur columns", include_str!("columns.wgsl"));
 const RESULT_SHADER: Shader = shader("pcf-blur result", include_str!("result.wgsl"));
 
-const SOURCE: Param = Param {
-    name: "source",
-    help: "What is blurred: percentage-closer filtering with 3×3 compares, or one compare.",
-    unit: "",
-    kind: ParamKind::Choice { values: &["3", "hard"] },
-};
-
-const RADIUS: Param = Param {
-    name: "radius",
-    help: "Reach of the blur, two standard deviations.",
-    unit: "pixels",
-    kind: ParamKind::Float { min: 0.0, max: 64.0, default: 3.0 },
-};
-
-const DEPTH_AWARE: Param = Param {
-    name: "depth-aware",
-    help: "Blurs only along a surface; off, light and shadow of one surface bleed into what is behind or before it on the \
-           screen.",
-    unit: "",
-    kind: ParamKind::Switch { default: true },
-};
-
 /// What the source draws where a surface faces away from the light, for the blur to know: next to no light in place of none. As in
 /// `head.wgsl`.
 const OWN_SHADOW: f64 = 6.103515625e-5;
+
+choices! {
+    /// What is blurred.
+    pub enum Source {
+        /// Percentage-closer filtering with 3×3 compares.
+        Square3 = "3",
+        /// One compare.
+        Hard = "hard",
+    }
+}
+
+settings! {
+    /// See the module.
+    pub struct PcfBlur {
+        #[flatten] map: Map,
+        #[flatten] cover: Cover,
+        #[flatten] storage: Storage,
+        /// What is blurred: percentage-closer filtering with 3×3 compares, or one compare.
+        source: Source = Source::Square3,
+        /// Reach of the blur, two standard deviations.
+        radius: f64 = 3.0, in 0.0..=64.0, unit "pixels",
+        /// Blurs only along a surface; off, light and shadow of one surface bleed into what is behind or before it on the
+        /// screen.
+        depth_aware: bool = true,
+    }
+}
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
@@ -66,10 +69,12 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     title: "Blurred percentage-closer filtering",
     summary: "Blurs the visibility picture itself, along the surfaces it shows: soft edges of constant width on the screen.",
     source: "ZA 3.3",
+    family: Family::DepthMaps,
+    filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, SOURCE, RADIUS, DEPTH_AWARE, FACES, OMNI, DEPTH, FOCUS, CACHE, BIAS],
+    settings: SettingsOf::new::<PcfBlur>(),
     views: &LAYER_NAMES,
     shaders: &[
         SHADERS[0],
@@ -82,13 +87,31 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
         RESULT_SHADER,
     ],
     readme: include_str!("README.md"),
-    make: |gpu, settings| {
-        let is_hard = settings.choice("source") == "hard";
+};
+
+impl Configure for PcfBlur {
+    const INFO: &'static TechniqueInfo = &INFO;
+
+    fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        self.make_on(gpu, &self.map.covering(&self.cover, self.storage.depth))
+    }
+
+    fn as_filter(&self) -> Option<&dyn Filter> {
+        Some(self)
+    }
+
+    fn maps(&self) -> Option<MapSetup> {
+        Some(self.map.covering(&self.cover, self.storage.depth))
+    }
+}
+
+impl Filter for PcfBlur {
+    fn make_on(&self, gpu: &Gpu, maps: &MapSetup) -> Result<Box<dyn Technique>, Error> {
+        let is_hard = self.source == Source::Hard;
         let reach = if is_hard { 0.5 } else { 2.0 };
         let constants = [("IS_HARD", f64::from(u8::from(is_hard))), ("OWN_SHADOW", OWN_SHADOW)];
-        let source = MapTechnique::new(gpu, settings, &SOURCE_SHADER, reach, &constants)?;
-        let radius = settings.float("radius");
-        let blur = (radius > 0.0).then(|| ScreenBlur::new(gpu, radius, settings.switch("depth-aware")));
+        let source = MapTechnique::new(gpu, maps, &SOURCE_SHADER, reach, &constants)?;
+        let blur = (self.radius > 0.0).then(|| ScreenBlur::new(gpu, self.radius, self.depth_aware));
         Ok(Box::new(Blurred::new(source, blur)))
-    },
-};
+    }
+}

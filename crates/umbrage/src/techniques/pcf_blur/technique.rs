@@ -2,8 +2,8 @@
 
 use super::blur::ScreenBlur;
 use crate::depth_maps::MapTechnique;
-use crate::technique::{DebugView, Stats, Technique};
-use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+use crate::technique::{DebugView, Inside, Stats, Technique};
+use crate::{error::Error, gpu::Gpu, passes::Passes, settings::Settings, view::View, visibility::VisibilityTarget};
 use umbrage_core::light_view::LightView;
 
 pub(super) struct Blurred {
@@ -35,10 +35,21 @@ impl Technique for Blurred {
         Ok(())
     }
 
-    fn forget(&mut self) {
-        self.source.forget();
+    fn set(&mut self, gpu: &Gpu, settings: &Settings) -> Result<bool, Error> {
+        self.source.set(gpu, settings)
     }
 
+    fn inside(&self) -> &dyn Inside {
+        self
+    }
+
+    fn inside_mut(&mut self) -> &mut dyn Inside {
+        self
+    }
+}
+
+/// All of it is the source's, but for what the blur costs.
+impl Inside for Blurred {
     fn stats(&self) -> Stats {
         let mut stats = self.source.stats();
         if let Some(blur) = &self.blur {
@@ -49,8 +60,24 @@ impl Technique for Blurred {
         stats
     }
 
+    fn forget(&mut self) {
+        self.source.forget();
+    }
+
     fn light_views(&self) -> &[LightView] {
         self.source.light_views()
+    }
+
+    fn split_distances(&self) -> &[f64] {
+        self.source.split_distances()
+    }
+
+    fn counts(&self) -> Vec<(&'static str, u64)> {
+        self.source.counts()
+    }
+
+    fn inspect(&mut self, view: Option<&str>) {
+        self.source.inspect(view);
     }
 
     fn debug_views(&self) -> Vec<DebugView<'_>> {

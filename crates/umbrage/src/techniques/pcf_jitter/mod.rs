@@ -3,28 +3,32 @@
 //! Sources: Uralsky, "Efficient Soft-Edged Shadows Using Pixel Shader Branching", 2005; ZA 3.4.
 
 use crate::depth_maps::{
-    BIAS, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, NOISE, OMNI, SHADERS, SIZE,
-    TESTS, TILE, TapStage, Taps,
+    Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, Noise, SHADERS, Storage, TESTS, TapStage, Taps,
 };
-use crate::params::{Param, ParamKind};
+use crate::settings::Configure;
 use crate::shader::Shader;
-use crate::technique::TechniqueInfo;
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::{Error, Filter, FilterUse, Gpu, settings};
 
 const SHADER: Shader = Shader::new("pcf-jitter", include_str!("pcf_jitter.wgsl"));
 
-const TAPS: Param = Param {
-    name: "taps",
-    help: "Compares in the penumbra; everywhere else the first 8 do.",
-    unit: "",
-    kind: ParamKind::Int { min: 1, max: 1024, default: 64 },
-};
-
-const RADIUS: Param = Param {
-    name: "radius",
-    help: "Radius of the disc.",
-    unit: "texels",
-    kind: ParamKind::Float { min: 0.0, max: 256.0, default: 2.5 },
-};
+settings! {
+    /// See the module.
+    pub struct PcfJitter {
+        #[flatten] map: Map,
+        #[flatten] cover: Cover,
+        #[flatten] storage: Storage,
+        /// Compares in the penumbra; everywhere else the first 8 do.
+        taps: u32 = 64, in 1..=1024,
+        /// Radius of the disc.
+        radius: f64 = 2.5, in 0.0..=256.0, unit "texels",
+        /// How neighbouring pixels differ: each pixel of a tile has its own jittered strata, or one set of taps turned by
+        /// blue noise, by interleaved gradient noise, or not at all (bands in place of grain).
+        noise: Noise = Noise::Stratified,
+        /// Pixels across and down after which stratified and blue noise repeat.
+        tile: u32 = 8, in 1..=32, unit "pixels",
+    }
+}
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
@@ -32,19 +36,38 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     title: "Jittered percentage-closer filtering",
     summary: "Averages compares over a jittered disc, a few of them to find the penumbra and the rest only there.",
     source: "ZA 3.4",
+    family: Family::DepthMaps,
+    filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, TAPS, RADIUS, NOISE, TILE, FACES, OMNI, DEPTH, FOCUS, CACHE, BIAS],
+    settings: SettingsOf::new::<PcfJitter>(),
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], SHADER],
     readme: include_str!("README.md"),
-    make: |gpu, settings| {
-        let taps = settings.int("taps") as u32;
-        let radius = settings.float("radius");
-        let constants = [("TAPS", f64::from(taps)), ("TESTS", f64::from(TESTS)), ("RADIUS", radius)];
-        let stage = TapStage::disc(gpu, Taps::new(settings, 0, taps));
-        let reach = radius + 1.0;
-        Ok(Box::new(MapTechnique::staged(gpu, settings, &SHADER, reach, &constants, Some(Box::new(stage)))?))
-    },
 };
+
+impl Configure for PcfJitter {
+    const INFO: &'static TechniqueInfo = &INFO;
+
+    fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        self.make_on(gpu, &self.map.covering(&self.cover, self.storage.depth))
+    }
+
+    fn as_filter(&self) -> Option<&dyn Filter> {
+        Some(self)
+    }
+
+    fn maps(&self) -> Option<MapSetup> {
+        Some(self.map.covering(&self.cover, self.storage.depth))
+    }
+}
+
+impl Filter for PcfJitter {
+    fn make_on(&self, gpu: &Gpu, maps: &MapSetup) -> Result<Box<dyn Technique>, Error> {
+        let constants = [("TAPS", f64::from(self.taps)), ("TESTS", f64::from(TESTS)), ("RADIUS", self.radius)];
+        let stage = TapStage::disc(gpu, Taps::new(self.noise, self.tile, 0, self.taps));
+        let reach = self.radius + 1.0;
+        Ok(Box::new(MapTechnique::staged(gpu, maps, &SHADER, reach, &constants, Some(Box::new(stage)))?))
+    }
+}

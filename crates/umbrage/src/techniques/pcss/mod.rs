@@ -3,35 +3,29 @@
 //! Sources: Fernando, "Percentage-Closer Soft Shadows", 2005; ZA 3.5.
 
 use crate::depth_maps::{
-    BIAS, BOUNDS_SHADER, CACHE, DEPTH, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE,
-    TapStage, Taps,
+    BOUNDS_SHADER, Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage, TapStage, Taps,
 };
-use crate::params::{Param, ParamKind};
+use crate::settings::Configure;
 use crate::shader::Shader;
-use crate::technique::TechniqueInfo;
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::{Error, Filter, FilterUse, Gpu, settings};
 
 const SHADER: Shader = Shader::new("pcss", include_str!("pcss.wgsl"));
 
-const SEARCH: Param = Param {
-    name: "search",
-    help: "Taps a side of the grid that looks for blockers.",
-    unit: "",
-    kind: ParamKind::Int { min: 1, max: 32, default: 5 },
-};
-
-const KERNEL: Param = Param {
-    name: "kernel",
-    help: "Taps a side of the grid of compares.",
-    unit: "",
-    kind: ParamKind::Int { min: 1, max: 32, default: 7 },
-};
-
-const BOUNDS: Param = Param {
-    name: "bounds",
-    help: "Looks for blockers only as far as bounds of the map's depth allow, not as far as the nearest caster would.",
-    unit: "",
-    kind: ParamKind::Switch { default: true },
-};
+settings! {
+    /// See the module.
+    pub struct Pcss {
+        #[flatten] map: Map,
+        #[flatten] cover: Cover,
+        #[flatten] storage: Storage,
+        /// Taps a side of the grid that looks for blockers.
+        search: u32 = 5, in 1..=32,
+        /// Taps a side of the grid of compares.
+        kernel: u32 = 7, in 1..=32,
+        /// Looks for blockers only as far as bounds of the map's depth allow, not as far as the nearest caster would.
+        bounds: bool = true,
+    }
+}
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
@@ -39,23 +33,42 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     title: "Percentage-closer soft shadows",
     summary: "Finds what is in the way of the light and filters on a grid as wide as the penumbra.",
     source: "ZA 3.5",
+    family: Family::DepthMaps,
+    filter: Some(FilterUse { warped: false }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, SEARCH, KERNEL, BOUNDS, FACES, OMNI, DEPTH, FOCUS, CACHE, BIAS],
+    settings: SettingsOf::new::<Pcss>(),
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], BOUNDS_SHADER, SHADER],
     readme: include_str!("README.md"),
-    make: |gpu, settings| {
-        let side = |name| settings.int(name) as u32;
-        let (search, kernel) = (side("search"), side("kernel"));
-        let bounds = settings.switch("bounds");
-        let constants = [
-            ("SEARCH", f64::from(search * search)),
-            ("FILTER", f64::from(kernel * kernel)),
-            ("BOUNDED", f64::from(u8::from(bounds))),
-        ];
-        let stage = TapStage::light(gpu, Taps::grids(search, kernel), bounds);
-        Ok(Box::new(MapTechnique::staged(gpu, settings, &SHADER, 1.0, &constants, Some(Box::new(stage)))?.soft()))
-    },
 };
+
+impl Configure for Pcss {
+    const INFO: &'static TechniqueInfo = &INFO;
+
+    fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        self.make_on(gpu, &self.map.covering(&self.cover, self.storage.depth))
+    }
+
+    fn as_filter(&self) -> Option<&dyn Filter> {
+        Some(self)
+    }
+
+    fn maps(&self) -> Option<MapSetup> {
+        Some(self.map.covering(&self.cover, self.storage.depth))
+    }
+}
+
+impl Filter for Pcss {
+    fn make_on(&self, gpu: &Gpu, maps: &MapSetup) -> Result<Box<dyn Technique>, Error> {
+        let constants = [
+            ("SEARCH", f64::from(self.search * self.search)),
+            ("FILTER", f64::from(self.kernel * self.kernel)),
+            ("BOUNDED", f64::from(u8::from(self.bounds))),
+        ];
+        let stage = TapStage::light(gpu, Taps::grids(self.search, self.kernel), self.bounds);
+        let maps = MapTechnique::staged(gpu, maps, &SHADER, 1.0, &constants, Some(Box::new(stage)))?;
+        Ok(Box::new(maps.soft()))
+    }
+}

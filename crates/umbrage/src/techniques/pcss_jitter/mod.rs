@@ -3,28 +3,33 @@
 //! Sources: ZA 4.4.1 and 4.4.3, and 3.5 (Fernando, "Percentage-Closer Soft Shadows", 2005).
 
 use crate::depth_maps::{
-    BIAS, BOUNDS_SHADER, CACHE, DEPTH, FACES, FOCUS, GRADIENT_NOISE, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS,
-    SIZE, TESTS, TILE, TapStage, Taps,
+    BOUNDS_SHADER, Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, Noise, SHADERS, Storage, TESTS, TapStage,
+    Taps,
 };
-use crate::params::{Param, ParamKind};
+use crate::settings::Configure;
 use crate::shader::Shader;
-use crate::technique::TechniqueInfo;
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::{Error, Filter, FilterUse, Gpu, settings};
 
 const SHADER: Shader = Shader::new("pcss-jitter", include_str!("pcss_jitter.wgsl"));
 
-const SEARCH: Param = Param {
-    name: "search",
-    help: "Taps that look for blockers.",
-    unit: "",
-    kind: ParamKind::Int { min: 1, max: 1024, default: 16 },
-};
-
-const TAPS: Param = Param {
-    name: "taps",
-    help: "Compares in the penumbra.",
-    unit: "",
-    kind: ParamKind::Int { min: 1, max: 1024, default: 32 },
-};
+settings! {
+    /// See the module.
+    pub struct PcssJitter {
+        #[flatten] map: Map,
+        #[flatten] cover: Cover,
+        #[flatten] storage: Storage,
+        /// Taps that look for blockers.
+        search: u32 = 16, in 1..=1024,
+        /// Compares in the penumbra.
+        taps: u32 = 32, in 1..=1024,
+        /// How neighbouring pixels differ: each pixel of a tile has its own jittered strata, or one set of taps turned by
+        /// blue noise, by interleaved gradient noise, or not at all (bands in place of grain).
+        noise: Noise = Noise::Gradient,
+        /// Pixels across and down after which stratified and blue noise repeat.
+        tile: u32 = 8, in 1..=32, unit "pixels",
+    }
+}
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
@@ -32,19 +37,39 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     title: "Jittered percentage-closer soft shadows",
     summary: "Looks for what is in the way of the light and filters as widely as its distance and the light's size ask for.",
     source: "ZA 4.4.3",
+    family: Family::DepthMaps,
+    filter: Some(FilterUse { warped: false }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, SEARCH, TAPS, GRADIENT_NOISE, TILE, FACES, OMNI, DEPTH, FOCUS, CACHE, BIAS],
+    settings: SettingsOf::new::<PcssJitter>(),
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], BOUNDS_SHADER, SHADER],
     readme: include_str!("README.md"),
-    make: |gpu, settings| {
-        let (search, taps) = (settings.int("search") as u32, settings.int("taps") as u32);
-        let constants = [("SEARCH", f64::from(search)), ("FILTER", f64::from(taps)), ("TESTS", f64::from(TESTS))];
-        let stage = TapStage::light(gpu, Taps::new(settings, search, taps), true);
-        Ok(Box::new(
-            MapTechnique::staged(gpu, settings, &SHADER, 1.0, &constants, Some(Box::new(stage)))?.soft().in_phases(),
-        ))
-    },
 };
+
+impl Configure for PcssJitter {
+    const INFO: &'static TechniqueInfo = &INFO;
+
+    fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        self.make_on(gpu, &self.map.covering(&self.cover, self.storage.depth))
+    }
+
+    fn as_filter(&self) -> Option<&dyn Filter> {
+        Some(self)
+    }
+
+    fn maps(&self) -> Option<MapSetup> {
+        Some(self.map.covering(&self.cover, self.storage.depth))
+    }
+}
+
+impl Filter for PcssJitter {
+    fn make_on(&self, gpu: &Gpu, maps: &MapSetup) -> Result<Box<dyn Technique>, Error> {
+        let constants =
+            [("SEARCH", f64::from(self.search)), ("FILTER", f64::from(self.taps)), ("TESTS", f64::from(TESTS))];
+        let stage = TapStage::light(gpu, Taps::new(self.noise, self.tile, self.search, self.taps), true);
+        let maps = MapTechnique::staged(gpu, maps, &SHADER, 1.0, &constants, Some(Box::new(stage)))?;
+        Ok(Box::new(maps.soft().in_phases()))
+    }
+}

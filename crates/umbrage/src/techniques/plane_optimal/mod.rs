@@ -2,11 +2,38 @@
 //!
 //! Sources: Chong, "Real-Time Perspective Optimal Shadow Maps", 2003; SG "Thesis of Hamilton Yu-Ik Chong".
 
-use crate::depth_maps::{
-    BIAS, CACHE, FACES, FILTER_KERNEL, GIVE_WAY, HEIGHT, LAYER_NAMES, LIGHTS, PLANE, SHADERS, SIZE, WARPED_FILTER,
-};
-use crate::technique::TechniqueInfo;
-use crate::techniques::find;
+use crate::depth_maps::{Fitting, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS, Softness};
+use crate::settings::Configure;
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::{Error, FilterId, Gpu, choices, settings};
+use umbrage_core::{glam::DVec4, light_view::Warp};
+
+choices! {
+    /// The plane that the map is made for.
+    pub enum Plane {
+        /// That which most of the picture shows or the ground, whichever is better.
+        Auto = "auto",
+        /// The level one.
+        Level = "level",
+    }
+}
+
+settings! {
+    /// See the module.
+    pub struct PlaneOptimal {
+        #[flatten] map: Map,
+        /// The technique that looks the map up, with its own defaults but for the parameters that are set here.
+        filter: FilterId<true> = FilterId::default(),
+        /// Of `pcf`, see there.
+        kernel: Kernel = Kernel::Hardware,
+        /// The plane that the map is made for: the better one of that which most of the picture shows and the ground, or the level one at `height`.
+        plane: Plane = Plane::Auto, live true,
+        /// Of the level plane.
+        height: f64 = 0.0, in -1e12..=1e12, unit "m", live true,
+        /// Warps less than is best for the plane where that makes texels smaller in the whole picture.
+        give_way: bool = true, live true,
+    }
+}
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
@@ -14,15 +41,34 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     title: "Plane-optimal shadow map",
     summary: "Tilts the map so that on one plane, such as the ground, all texels are of one size on the screen.",
     source: "SG \"Thesis of Hamilton Yu-Ik Chong\"",
+    family: Family::FittedMaps,
+    filter: None,
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, WARPED_FILTER, FILTER_KERNEL, PLANE, HEIGHT, GIVE_WAY, FACES, CACHE, BIAS],
+    settings: SettingsOf::new::<PlaneOptimal>(),
     views: &LAYER_NAMES,
     shaders: &SHADERS,
     readme: include_str!("README.md"),
-    make: |gpu, settings| {
-        let filter = find(settings.choice("filter"))?;
-        filter.make(gpu, &settings.with_defaults_of(filter.params))
-    },
 };
+
+impl Configure for PlaneOptimal {
+    const INFO: &'static TechniqueInfo = &INFO;
+
+    fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        self.filter.make_on(gpu, &self.setup())
+    }
+
+    fn maps(&self) -> Option<MapSetup> {
+        Some(self.setup())
+    }
+}
+
+impl PlaneOptimal {
+    fn setup(&self) -> MapSetup {
+        let level = DVec4::Y - DVec4::W * self.height;
+        let plane = (self.plane == Plane::Level).then_some(level);
+        let warp = Warp::Plane { plane, gives_way: self.give_way };
+        self.map.fitted(Fitting::Warp(warp), Softness::Texels(self.kernel))
+    }
+}

@@ -2,11 +2,38 @@
 //!
 //! Sources: Stamminger and Drettakis 2002; Kozlov, "Perspective Shadow Maps: Care and Feeding", 2004; SG "Perspective Shadow Maps".
 
-use crate::depth_maps::{
-    BIAS, CACHE, CUBE, FACES, FILTER_KERNEL, LAYER_NAMES, LIGHTS, NEAR_PLANE, SHADERS, SHIFT, SIZE, WARPED_FILTER,
-};
-use crate::technique::TechniqueInfo;
-use crate::techniques::find;
+use crate::depth_maps::{Fitting, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS, Softness};
+use crate::settings::Configure;
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::{Error, FilterId, Gpu, choices, settings};
+use umbrage_core::light_view::Warp;
+
+choices! {
+    /// How far the virtual camera stands behind the real one.
+    pub enum Shift {
+        /// As far as makes texels smallest on the screen.
+        Auto = "auto",
+        /// Not at all.
+        Off = "off",
+    }
+}
+
+settings! {
+    /// See the module.
+    pub struct Psm {
+        #[flatten] map: Map,
+        /// The technique that looks the map up, with its own defaults but for the parameters that are set here.
+        filter: FilterId<true> = FilterId::default(),
+        /// Of `pcf`, see there.
+        kernel: Kernel = Kernel::Hardware,
+        /// How far the virtual camera stands behind the real one: as far as makes texels smallest on the screen, or not at all.
+        shift: Shift = Shift::Auto, live true,
+        /// Least distance of the virtual camera's near plane, which is at the nearest receiver if that is farther.
+        near_plane: f64 = 0.0, in 0.0..=1e12, unit "m", live true,
+        /// One map for every side of the post-perspective cube that the light's rays leave by, for spots and parallel light.
+        cube: bool = false, live true,
+    }
+}
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
@@ -14,15 +41,33 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     title: "Perspective shadow map",
     summary: "Takes the depth map in the space after the projection of a virtual camera: texels are small near the eye.",
     source: "SG \"Perspective Shadow Maps\"",
+    family: Family::FittedMaps,
+    filter: None,
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, WARPED_FILTER, FILTER_KERNEL, SHIFT, NEAR_PLANE, CUBE, FACES, CACHE, BIAS],
+    settings: SettingsOf::new::<Psm>(),
     views: &LAYER_NAMES,
     shaders: &SHADERS,
     readme: include_str!("README.md"),
-    make: |gpu, settings| {
-        let filter = find(settings.choice("filter"))?;
-        filter.make(gpu, &settings.with_defaults_of(filter.params))
-    },
 };
+
+impl Configure for Psm {
+    const INFO: &'static TechniqueInfo = &INFO;
+
+    fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        self.filter.make_on(gpu, &self.setup())
+    }
+
+    fn maps(&self) -> Option<MapSetup> {
+        Some(self.setup())
+    }
+}
+
+impl Psm {
+    fn setup(&self) -> MapSetup {
+        let shift = self.shift == Shift::Auto;
+        let warp = Warp::PostPerspective { shift, near: self.near_plane, cube: self.cube };
+        self.map.fitted(Fitting::Warp(warp), Softness::Texels(self.kernel))
+    }
+}

@@ -2,8 +2,8 @@
 
 use super::DEPTH_SHADER;
 use super::situation::is_parallel;
-use crate::receivers::Eye;
 use crate::fullscreen::{UNIFORM, bind, layout};
+use crate::receivers::Eye;
 use crate::shader::shader_struct;
 use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View};
 use umbrage_core::CameraView;

@@ -13,10 +13,13 @@ mod situation;
 mod technique;
 mod views;
 
-use crate::params::{Param, ParamKind};
+use crate::settings::Configure;
 use crate::shader::Shader;
+pub use crate::silhouettes::Extrude;
 use crate::silhouettes::FIND_SHADER;
-use crate::technique::TechniqueInfo;
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::{Error, Gpu, settings};
+pub use options::{Count, Counter, Culls, Parallel, Reach, Stencil};
 use umbrage_core::LightKinds;
 
 const COUNT_SHADER: Shader = Shader::new("volumes", include_str!("count.wgsl"));
@@ -28,79 +31,50 @@ const DEPTH_SHADER: Shader =
 
 const VIEWS_SHADER: Shader = Shader::new("views of volumes", include_str!("views.wgsl"));
 
-const VIEW_BASE_SHADER: Shader = Shader::new("views of volumes, base", include_str!("view_base.wgsl"))
-    .with_layouts(&[views::ViewBase::LAYOUT]);
+const VIEW_BASE_SHADER: Shader =
+    Shader::new("views of volumes, base", include_str!("view_base.wgsl")).with_layouts(&[views::ViewBase::LAYOUT]);
 
 const PLAN_SHADER: Shader = Shader::new("plan of casters", include_str!("plan.wgsl"));
 
-const PARAMS: &[Param] = &[
-    Param {
-        name: "count",
-        help: "From where the shadows that a point is in are counted: from the eye, starting with those the eye is in; from \
-               the eye where a caster can't shadow it, else from infinity; from infinity; from the eye, starting with 0 \
-               (wrong in shadow); only whether their number is odd (wrong where shadows overlap).",
-        unit: "",
-        kind: ParamKind::Choice { values: &["z-pass-eye", "auto", "z-fail", "z-pass", "xor"] },
-    },
-    Param {
-        name: "extrude",
-        help: "Where silhouettes are found: by compute shaders, in vertex shaders that look at every edge, or by the CPU.",
-        unit: "",
-        kind: ParamKind::Choice { values: &["compute", "vertex", "cpu"] },
-    },
-    Param {
-        name: "counter",
-        help: "What counts: 8 bits of stencil, which take 256 shadows on one point for none; floats, which hold any number; \
-               or stencil where the casters can't have 256 layers and floats elsewhere.",
-        unit: "",
-        kind: ParamKind::Choice { values: &["auto", "stencil", "float"] },
-    },
-    Param {
-        name: "stencil",
-        help: "Whether the stencil counts fronts and backs at once or one after the other.",
-        unit: "",
-        kind: ParamKind::Choice { values: &["two-sided", "two-pass"] },
-    },
-    Param {
-        name: "reach",
-        help: "Where shadows end: behind everything that is seen, nowhere, or where the light does (the picture is the same, \
-               visibility beyond is not).",
-        unit: "",
-        kind: ParamKind::Choice { values: &["scene", "infinite", "finite"] },
-    },
-    Param {
-        name: "cull",
-        help: "What is left out because it changes nothing: everything that can be, nothing, or one kind: casters that the \
-               light does not reach, casters that shadow nothing in view, caps out of view, pixels beyond the light (the \
-               light's reach counts with `reach = finite`).",
-        unit: "",
-        kind: ParamKind::Choice { values: &["all", "none", "light", "view", "caps", "scissor"] },
-    },
-    Param {
-        name: "depth-bounds",
-        help: "Counts nothing at points beyond the light's range, for one more pass over the depth (`reach = finite`).",
-        unit: "",
-        kind: ParamKind::Switch { default: false },
-    },
-    Param {
-        name: "parallel",
-        help: "Sides of parallel light: triangles that meet infinitely far away, or quads and dark caps as for other lights.",
-        unit: "",
-        kind: ParamKind::Choice { values: &["triangles", "quads"] },
-    },
-    Param {
-        name: "budget",
-        help: "At most so many casters throw shadows, the most important ones by size on the screen; 0: all.",
-        unit: "casters",
-        kind: ParamKind::Int { min: 0, max: 1_000_000, default: 0 },
-    },
-    Param {
-        name: "unseen",
-        help: "For hosts that cull faces or hide casters from the camera: counts all from infinity, with both sides of meshes.",
-        unit: "",
-        kind: ParamKind::Switch { default: false },
-    },
-];
+settings! {
+    /// See the module.
+    pub struct Volume {
+        /// From where the shadows that a point is in are counted: from the eye, starting with
+        /// those the eye is in; from the eye where a caster can't shadow it, else from
+        /// infinity; from infinity; from the eye, starting with 0 (wrong in shadow); only
+        /// whether their number is odd (wrong where shadows overlap).
+        count: Count = Count::ZPassEye,
+        /// Where silhouettes are found: by compute shaders, in vertex shaders that look at
+        /// every edge, or by the CPU.
+        extrude: Extrude = Extrude::Compute,
+        /// What counts: 8 bits of stencil, which take 256 shadows on one point for none;
+        /// floats, which hold any number; or stencil where the casters can't have 256 layers
+        /// and floats elsewhere.
+        counter: Counter = Counter::Auto,
+        /// Whether the stencil counts fronts and backs at once or one after the other.
+        stencil: Stencil = Stencil::TwoSided,
+        /// Where shadows end: behind everything that is seen, nowhere, or where the light does
+        /// (the picture is the same, visibility beyond is not).
+        reach: Reach = Reach::Scene,
+        /// What is left out because it changes nothing: everything that can be, nothing, or one
+        /// kind: casters that the light does not reach, casters that shadow nothing in view,
+        /// caps out of view, pixels beyond the light (the light's reach counts with `reach =
+        /// finite`).
+        cull: Culls = Culls::All,
+        /// Counts nothing at points beyond the light's range, for one more pass over the depth
+        /// (`reach = finite`).
+        depth_bounds: bool = false,
+        /// Sides of parallel light: triangles that meet infinitely far away, or quads and dark
+        /// caps as for other lights.
+        parallel: Parallel = Parallel::Triangles,
+        /// At most so many casters throw shadows, the most important ones by size on the
+        /// screen; 0: all.
+        budget: u32 = 0, in 0..=1_000_000, unit "casters",
+        /// For hosts that cull faces or hide casters from the camera: counts all from infinity,
+        /// with both sides of meshes.
+        unseen: bool = false,
+    }
+}
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
@@ -109,12 +83,21 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     summary: "Counts how many casters' shadows each point is in: hard shadows exact to the pixel. Alpha-masked triangles cast \
               whole.",
     source: "PX 3.2–3.4, 5; SG \"Practical and Robust Stenciled Shadow Volumes\"; ZA 2.4; GG 9",
+    family: Family::Volumes,
+    filter: None,
     lights: LightKinds::ALL,
     features: wgpu::Features::empty(),
     hard: true,
-    params: PARAMS,
+    settings: SettingsOf::new::<Volume>(),
     views: views::NAMES,
     shaders: &[FIND_SHADER, COUNT_SHADER, RESOLVE_SHADER, DEPTH_SHADER, VIEWS_SHADER, VIEW_BASE_SHADER, PLAN_SHADER],
     readme: include_str!("README.md"),
-    make: |gpu, settings| Ok(Box::new(technique::Volume::new(gpu, settings))),
 };
+
+impl Configure for Volume {
+    const INFO: &'static TechniqueInfo = &INFO;
+
+    fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        Ok(Box::new(technique::Volume::new(gpu, self)))
+    }
+}

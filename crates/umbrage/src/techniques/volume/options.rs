@@ -1,43 +1,96 @@
 //! The technique's parameters as types.
 
-use crate::params::Settings;
+use super::Volume;
+use crate::choices;
 use crate::silhouettes::{Extrude, Part};
 
-/// From where shadows are counted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Count {
-    /// From the eye, starting with the shadows that the eye is in.
-    ZPassEye,
-    /// From the eye for casters that can't shadow it, from infinity for others.
-    Auto,
-    /// From infinity.
-    ZFail,
-    /// From the eye, starting with 0.
-    ZPass,
-    /// From the eye, and only whether the number is odd.
-    Xor,
+choices! {
+    /// From where shadows are counted.
+    pub enum Count {
+        /// From the eye, starting with the shadows that the eye is in.
+        ZPassEye = "z-pass-eye",
+        /// From the eye for casters that can't shadow it, from infinity for others.
+        Auto = "auto",
+        /// From infinity.
+        ZFail = "z-fail",
+        /// From the eye, starting with 0.
+        ZPass = "z-pass",
+        /// From the eye, and only whether the number is odd.
+        Xor = "xor",
+    }
+}
+
+choices! {
+    /// What counts.
+    pub enum Counter {
+        /// Stencil where the casters can't have 256 layers, floats elsewhere.
+        Auto = "auto",
+        /// Eight bits of stencil.
+        Stencil = "stencil",
+        /// Floats.
+        Float = "float",
+    }
+}
+
+choices! {
+    /// Whether the stencil counts fronts and backs at once.
+    pub enum Stencil {
+        /// At once.
+        TwoSided = "two-sided",
+        /// One after the other.
+        TwoPass = "two-pass",
+    }
+}
+
+choices! {
+    /// Where shadows end.
+    pub enum Reach {
+        /// Behind everything that is seen.
+        Scene = "scene",
+        /// Nowhere.
+        Infinite = "infinite",
+        /// Where the light does.
+        Finite = "finite",
+    }
+}
+
+choices! {
+    /// What is left out because it changes nothing.
+    pub enum Culls {
+        /// Everything that can be.
+        All = "all",
+        /// Nothing.
+        None = "none",
+        /// Casters that the light does not reach.
+        Light = "light",
+        /// Casters that shadow nothing in view.
+        View = "view",
+        /// Caps out of view.
+        Caps = "caps",
+        /// Pixels beyond the light.
+        Scissor = "scissor",
+    }
+}
+
+choices! {
+    /// Sides of parallel light.
+    pub enum Parallel {
+        /// Triangles that meet infinitely far away.
+        Triangles = "triangles",
+        /// Quads and dark caps, as for other lights.
+        Quads = "quads",
+    }
 }
 
 impl Count {
     /// All that may be drawn.
-    pub fn parts(self) -> &'static [Part] {
+    pub(super) fn parts(self) -> &'static [Part] {
         match self {
             Self::ZPassEye | Self::Auto => &Part::ALL,
             Self::ZFail => &[Part::FailSides, Part::Caps],
             Self::ZPass | Self::Xor => &[Part::PassSides],
         }
     }
-}
-
-/// Where shadows end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Reach {
-    /// Behind everything that is seen.
-    Scene,
-    /// Nowhere.
-    Infinite,
-    /// Where the light does.
-    Finite,
 }
 
 /// What counts.
@@ -78,39 +131,29 @@ impl Options {
         self.reach == Reach::Finite
     }
 
-    pub fn of(settings: &Settings) -> Self {
-        let two_pass = settings.choice("stencil") == "two-pass";
-        let cull = settings.choice("cull");
-        let culls = |name| cull == "all" || cull == name;
+    pub fn of(settings: &Volume) -> Self {
+        let two_pass = settings.stencil == Stencil::TwoPass;
+        let culls = |what| settings.cull == Culls::All || settings.cull == what;
         Self {
-            count: match settings.choice("count") {
-                "auto" => Count::Auto,
-                "z-fail" => Count::ZFail,
-                "z-pass" => Count::ZPass,
-                "xor" => Count::Xor,
-                _ => Count::ZPassEye,
-            },
-            extrude: match settings.choice("extrude") {
-                "vertex" => Extrude::Vertex,
-                "cpu" => Extrude::Cpu,
-                _ => Extrude::Compute,
-            },
-            counter: match settings.choice("counter") {
-                "float" => Some(CounterKind::Float),
-                "auto" if !two_pass => None,
-                _ => Some(CounterKind::Stencil),
+            count: settings.count,
+            extrude: settings.extrude,
+            counter: match settings.counter {
+                Counter::Float => Some(CounterKind::Float),
+                Counter::Auto if !two_pass => None,
+                Counter::Auto | Counter::Stencil => Some(CounterKind::Stencil),
             },
             two_pass,
-            reach: match settings.choice("reach") {
-                "infinite" => Reach::Infinite,
-                "finite" => Reach::Finite,
-                _ => Reach::Scene,
+            reach: settings.reach,
+            cull: Cull {
+                light: culls(Culls::Light),
+                view: culls(Culls::View),
+                caps: culls(Culls::Caps),
+                scissor: culls(Culls::Scissor),
             },
-            cull: Cull { light: culls("light"), view: culls("view"), caps: culls("caps"), scissor: culls("scissor") },
-            depth_bounds: settings.switch("depth-bounds"),
-            quads: settings.choice("parallel") == "quads",
-            budget: settings.int("budget").max(0) as usize,
-            unseen: settings.switch("unseen"),
+            depth_bounds: settings.depth_bounds,
+            quads: settings.parallel == Parallel::Quads,
+            budget: settings.budget as usize,
+            unseen: settings.unseen,
         }
     }
 }

@@ -8,9 +8,8 @@ use super::select::{Fate, Selection};
 use super::situation::is_parallel;
 use super::views::{self, Views};
 use crate::casters::Edges;
-use crate::params::Settings;
 use crate::silhouettes::{Part, Silhouettes, Style};
-use crate::technique::{DebugView, Stats, Technique};
+use crate::technique::{DebugView, Inside, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, receivers::Receivers, view::View, visibility::VisibilityTarget};
 use umbrage_core::glam::DVec4;
 
@@ -33,7 +32,7 @@ pub(super) struct Volume {
 const STENCIL_LAYERS: u32 = 256;
 
 impl Volume {
-    pub fn new(gpu: &Gpu, settings: &Settings) -> Self {
+    pub fn new(gpu: &Gpu, settings: &super::Volume) -> Self {
         let options = Options::of(settings);
         let silhouettes = Silhouettes::new(gpu, options.extrude);
         Self {
@@ -217,6 +216,16 @@ impl Technique for Volume {
         Ok(())
     }
 
+    fn inside(&self) -> &dyn Inside {
+        self
+    }
+
+    fn inside_mut(&mut self) -> &mut dyn Inside {
+        self
+    }
+}
+
+impl Inside for Volume {
     fn stats(&self) -> Stats {
         let drawn = self.selection.throws.len() as u32;
         let (edges, triangles) = self.silhouettes.looked_at();
@@ -228,6 +237,7 @@ impl Technique for Volume {
             bytes: self.counter.bytes() + self.silhouettes.bytes(),
         }
     }
+
     fn counts(&self) -> Vec<(&'static str, u64)> {
         let s = &self.selection;
         let fate = |fate| u64::from(s.count(fate));

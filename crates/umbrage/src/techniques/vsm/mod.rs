@@ -2,13 +2,12 @@
 //!
 //! Sources: FE 2.3.1; Donnelly and Lauritzen, "Variance Shadow Maps", 2006.
 
-use crate::depth_maps::{
-    BIAS, CACHE, FACES, FOCUS, LAYER_NAMES, LIGHTS, MapTechnique, OMNI, SHADERS, SIZE,
-};
-use crate::moment_maps::{Coding, FORMAT, MIPS, MomentStage, RADIUS, Recipe};
-use crate::params::{Param, ParamKind};
+use crate::depth_maps::{Cover, Depth, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS};
+use crate::moment_maps::{Coding, Filtering, MomentStage, Recipe};
+use crate::settings::Configure;
 use crate::shader::{Module, Shader};
-use crate::technique::TechniqueInfo;
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::{Error, Filter, FilterUse, Gpu, settings};
 
 const MODULES: &[Module] = &[
     Module { name: "moments", source: include_str!("moments.wgsl") },
@@ -24,12 +23,16 @@ const PASSES_16: Shader = shader("vsm moments, 16 bits", "// needs: moments_pass
 const LOOKUP: Shader = shader("vsm", "// needs: vsm, moments_float");
 const LOOKUP_16: Shader = shader("vsm, 16 bits", "// needs: vsm, moments_unorm");
 
-const BLEEDING: Param = Param {
-    name: "bleeding",
-    help: "Shares of light up to this count as none, the rest is stretched: takes light that bleeds through off.",
-    unit: "",
-    kind: ParamKind::Float { min: 0.0, max: 0.9, default: 0.2 },
-};
+settings! {
+    /// See the module.
+    pub struct Vsm {
+        #[flatten] map: Map,
+        #[flatten] cover: Cover,
+        #[flatten] filtering: Filtering,
+        /// Shares of light up to this count as none, the rest is stretched: takes light that bleeds through off.
+        bleeding: f64 = 0.2, in 0.0..=0.9,
+    }
+}
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
@@ -37,27 +40,47 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     title: "Variance shadow maps",
     summary: "Filters depth and its square; their variance says how much of the light may come through.",
     source: "FE 2.3.1",
+    family: Family::MomentMaps,
+    filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
     hard: false,
-    params: &[SIZE, RADIUS, BLEEDING, FORMAT, MIPS, FACES, OMNI, FOCUS, CACHE, BIAS],
+    settings: SettingsOf::new::<Vsm>(),
     views: &LAYER_NAMES,
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], PASSES, PASSES_16, LOOKUP, LOOKUP_16],
     readme: include_str!("README.md"),
-    make: |gpu, settings| {
-        let half = settings.choice("format") == "16";
+};
+
+impl Configure for Vsm {
+    const INFO: &'static TechniqueInfo = &INFO;
+
+    fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        self.make_on(gpu, &self.map.covering(&self.cover, Depth::Projective))
+    }
+
+    fn as_filter(&self) -> Option<&dyn Filter> {
+        Some(self)
+    }
+
+    fn maps(&self) -> Option<MapSetup> {
+        Some(self.map.covering(&self.cover, Depth::Projective))
+    }
+}
+
+impl Filter for Vsm {
+    fn make_on(&self, gpu: &Gpu, maps: &MapSetup) -> Result<Box<dyn Technique>, Error> {
+        let half = self.filtering.is_half();
         let (passes, lookup, coding) =
             if half { (PASSES_16, LOOKUP_16, Coding::Unorm) } else { (PASSES, LOOKUP, Coding::Single) };
         let recipe = Recipe { passes, channels: 2, coding, constants: Vec::new() };
-        let stage = MomentStage::new(gpu, settings, &recipe);
+        let stage = MomentStage::new(gpu, maps.size, &self.filtering, &recipe);
         let reach = stage.reach();
-        let on = |name| if settings.switch(name) { 1.0 } else { 0.0 };
         let constants = [
-            ("MIPS", on("mips")),
-            ("BLEEDING", settings.float("bleeding")),
+            ("MIPS", f64::from(u8::from(self.filtering.mips))),
+            ("BLEEDING", self.bleeding),
             ("LEAST_VARIANCE", if half { 3e-5 } else { 1e-7 }),
         ];
-        let maps = MapTechnique::staged(gpu, settings, &lookup, reach, &constants, Some(Box::new(stage)))?;
+        let maps = MapTechnique::staged(gpu, maps, &lookup, reach, &constants, Some(Box::new(stage)))?;
         Ok(Box::new(maps.with_every_caster()))
-    },
-};
+    }
+}

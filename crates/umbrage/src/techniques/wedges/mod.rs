@@ -19,70 +19,44 @@ mod technique;
 mod views;
 mod way;
 
-use crate::params::{Param, ParamKind};
+use crate::settings::Configure;
 use crate::shader::Shader;
 use crate::silhouettes::FIND_SHADER;
-use crate::technique::TechniqueInfo;
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::{Error, Gpu, settings};
+pub use options::{Batch, Combine, Coverage, Cull, Scale};
 use umbrage_core::LightKinds;
 
-const PARAMS: &[Param] = &[
-    Param {
-        name: "batch",
-        help: "What is drawn at once: all wedges of the light; every caster whose silhouette is one convex loop, and the others as they \
-               are; or one wedge after the other, in two halves.",
-        unit: "",
-        kind: ParamKind::Choice { values: &["all", "per-loop", "per-wedge"] },
-    },
-    Param {
-        name: "combine",
-        help: "What becomes of casters that hide the same part of the light: their shares add up, or the largest counts.",
-        unit: "",
-        kind: ParamKind::Choice { values: &["sum", "max"] },
-    },
-    Param {
-        name: "cull",
-        help: "Who finds what is in no wedge: the shader, or a stencil mask before it; auto: the mask for one wedge after the other.",
-        unit: "",
-        kind: ParamKind::Choice { values: &["auto", "shader", "stencil"] },
-    },
-    Param {
-        name: "scale",
-        help: "Size of the buffer that shares add up in, against the picture.",
-        unit: "",
-        kind: ParamKind::Choice { values: &["1", "1/2", "1/4"] },
-    },
-    Param {
-        name: "budget-ms",
-        help: "Time on the GPU by which the scale is chosen in every frame; 0 leaves it.",
-        unit: "ms",
-        kind: ParamKind::Float { min: 0.0, max: 1000.0, default: 0.0 },
-    },
-    Param {
-        name: "split-light",
-        help: "Columns and rows that the light is split into, each piece with silhouettes of its own; a line into that many parts.",
-        unit: "",
-        kind: ParamKind::Int { min: 1, max: 3, default: 1 },
-    },
-    Param {
-        name: "coverage",
-        help: "Where the share that an edge covers of a sphere, an ellipsoid, a disc or a sun comes from: a formula, or two look-ups of 32³ \
-               values. Textured rectangles always have a table, other lights none.",
-        unit: "",
-        kind: ParamKind::Choice { values: &["analytic", "table"] },
-    },
-    Param {
-        name: "radius",
-        help: "Radius of point and spot lights, which are hard without one.",
-        unit: "m",
-        kind: ParamKind::Float { min: 0.0, max: 1000.0, default: 0.0 },
-    },
-    Param {
-        name: "unseen",
-        help: "For hosts that cull faces or hide casters from the camera: counts all from infinity, with both sides of meshes.",
-        unit: "",
-        kind: ParamKind::Choice { values: &["off", "on"] },
-    },
-];
+settings! {
+    /// See the module.
+    pub struct Wedges {
+        /// What is drawn at once: all wedges of the light; every caster whose silhouette is one
+        /// convex loop, and the others as they are; or one wedge after the other, in two halves.
+        batch: Batch = Batch::All,
+        /// What becomes of casters that hide the same part of the light: their shares add up, or
+        /// the largest counts.
+        combine: Combine = Combine::Sum,
+        /// Who finds what is in no wedge: the shader, or a stencil mask before it; auto: the mask
+        /// for one wedge after the other.
+        cull: Cull = Cull::Auto,
+        /// Size of the buffer that shares add up in, against the picture.
+        scale: Scale = Scale::Whole,
+        /// Time on the GPU by which the scale is chosen in every frame; 0 leaves it.
+        budget_ms: f64 = 0.0, in 0.0..=1000.0, unit "ms",
+        /// Columns and rows that the light is split into, each piece with silhouettes of its own;
+        /// a line into that many parts.
+        split_light: u32 = 1, in 1..=3,
+        /// Where the share that an edge covers of a sphere, an ellipsoid, a disc or a sun comes
+        /// from: a formula, or two look-ups of 32³ values. Textured rectangles always have a
+        /// table, other lights none.
+        coverage: Coverage = Coverage::Analytic,
+        /// Radius of point and spot lights, which are hard without one.
+        radius: f64 = 0.0, in 0.0..=1000.0, unit "m",
+        /// For hosts that cull faces or hide casters from the camera: counts all from infinity,
+        /// with both sides of meshes.
+        unseen: bool = false,
+    }
+}
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
@@ -91,15 +65,24 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     summary: "Corrects hard shadow volumes by what every silhouette edge covers of the light: soft shadows without noise, exact \
               where the silhouette is the same from all of the light.",
     source: "PX 4, 6, 7.2; SG \"A Soft Shadow Volume Algorithm\"",
+    family: Family::AreaLights,
+    filter: None,
     lights: LightKinds::ALL,
     features: wgpu::Features::empty(),
     hard: false,
-    params: PARAMS,
+    settings: SettingsOf::new::<Wedges>(),
     views: views::NAMES,
     shaders: SHADERS,
     readme: include_str!("README.md"),
-    make: |gpu, settings| Ok(Box::new(technique::Wedges::new(gpu, settings)?)),
 };
+
+impl Configure for Wedges {
+    const INFO: &'static TechniqueInfo = &INFO;
+
+    fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        Ok(Box::new(technique::Wedges::new(gpu, self)?))
+    }
+}
 
 const SHADERS: &[Shader] = &[
     FIND_SHADER,

@@ -1,10 +1,67 @@
 //! What the user chooses.
 
-use crate::params::Settings;
+use super::Wedges;
+use crate::choices;
 use crate::{error::Error, gpu::Gpu};
 
 /// What users type.
 pub(super) const ID: &str = "wedges";
+
+choices! {
+    /// What becomes of casters that hide the same part of the light.
+    pub enum Combine {
+        /// Their shares add up.
+        Sum = "sum",
+        /// The largest share counts.
+        Max = "max",
+    }
+}
+
+choices! {
+    /// What is drawn in one call.
+    pub enum Batch {
+        /// All wedges of the light.
+        All = "all",
+        /// Every caster whose silhouette is one convex loop.
+        PerLoop = "per-loop",
+        /// One wedge after the other, in two halves.
+        PerWedge = "per-wedge",
+    }
+}
+
+choices! {
+    /// Who finds what is in no wedge.
+    pub enum Cull {
+        /// The stencil for one wedge after the other, else the shader.
+        Auto = "auto",
+        /// The shader.
+        Shader = "shader",
+        /// A stencil mask before it.
+        Stencil = "stencil",
+    }
+}
+
+choices! {
+    /// Size of the buffer that shares add up in, against the picture.
+    pub enum Scale {
+        /// The same.
+        Whole = "1",
+        /// Half as wide and high.
+        Half = "1/2",
+        /// A quarter as wide and high.
+        Quarter = "1/4",
+    }
+}
+
+choices! {
+    /// Where the share that an edge covers comes from.
+    pub enum Coverage {
+        /// A formula.
+        Analytic = "analytic",
+        /// Two look-ups in a table.
+        Table = "table",
+    }
+}
 
 /// Checked settings of every way of drawing.
 #[derive(Clone, Copy, Debug)]
@@ -22,14 +79,18 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn new(gpu: &Gpu, settings: &Settings) -> Result<Self, Error> {
+    pub fn new(gpu: &Gpu, settings: &Wedges) -> Result<Self, Error> {
         let new = Self {
-            scale: settings.choice("scale").trim_start_matches("1/").parse().unwrap_or(1),
-            budget_ms: settings.float("budget-ms"),
-            split: settings.int("split-light") as usize,
-            table: settings.choice("coverage") == "table",
-            point_radius: settings.float("radius"),
-            unseen: settings.choice("unseen") == "on",
+            scale: match settings.scale {
+                Scale::Whole => 1,
+                Scale::Half => 2,
+                Scale::Quarter => 4,
+            },
+            budget_ms: settings.budget_ms,
+            split: settings.split_light as usize,
+            table: settings.coverage == Coverage::Table,
+            point_radius: settings.radius,
+            unseen: settings.unseen,
         };
         if new.budget_ms > 0.0 && !gpu.has(wgpu::Features::TIMESTAMP_QUERY) {
             let what = "budget-ms on this adapter, which lacks TIMESTAMP_QUERY; set scale instead".into();

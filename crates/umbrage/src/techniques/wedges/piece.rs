@@ -2,9 +2,9 @@
 
 use super::draws::{self, Draw};
 use super::pipelines::{Key, Making, Pipelines};
+use super::records::{GROUP, WINDOW};
 use super::select::{CHUNK, Selection};
 use super::tables::Term;
-use super::records::{GROUP, WINDOW};
 use super::targets::{Buffers, Needs, Target};
 use super::way::Recording;
 use crate::area_light::{Form, Frame, ROUNDING};
@@ -51,10 +51,7 @@ impl Piece {
         let projection = (&view.camera.clip_from_world(), is_reversed(view));
         let throws = &self.selection.throws;
         self.silhouettes.prepare(gpu, view.casters, projection, self.form.center, throws, style)?;
-        let needs = Needs {
-            wedges: self.silhouettes.room(Part::PassSides),
-            caps: self.selection.caps.len() as u32,
-        };
+        let needs = Needs { wedges: self.silhouettes.room(Part::PassSides), caps: self.selection.caps.len() as u32 };
         if self.buffers.as_ref().is_none_or(|b| !b.hold(&needs)) {
             self.buffers = Some(Buffers::new(gpu, pipelines, &needs)?);
         }

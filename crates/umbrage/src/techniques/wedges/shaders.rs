@@ -26,13 +26,12 @@ pub(super) const fn shader(name: &'static str, source: &'static str) -> Shader {
 pub(super) const MAKE: Shader =
     shader("make wedges", include_str!("make.wgsl")).with_constants(&[("Wedge", records::RECORD as f64), GROUP]);
 
-pub(super) const BUNDLE: Shader =
-    shader("bundle wedges", include_str!("bundle.wgsl")).with_constants(&[
-        ("Bundle", records::BUNDLE_RECORD as f64),
-        ("BUNDLE", records::BUNDLE as f64),
-        GROUP,
-        ("WINDOW", records::WINDOW as f64),
-    ]);
+pub(super) const BUNDLE: Shader = shader("bundle wedges", include_str!("bundle.wgsl")).with_constants(&[
+    ("Bundle", records::BUNDLE_RECORD as f64),
+    ("BUNDLE", records::BUNDLE as f64),
+    GROUP,
+    ("WINDOW", records::WINDOW as f64),
+]);
 
 pub(super) const CAPS: Shader =
     shader("make caps", include_str!("caps.wgsl")).with_constants(&[("Cap", records::CAP_RECORD as f64)]);

@@ -7,17 +7,16 @@ use super::one_draw::OneDraw;
 use super::options::{ID, Options};
 use super::piece::{Piece, is_reversed};
 use super::pipelines::{Key, Pipelines, Resolve};
-use super::tables::{Tables, Term};
 use super::records::GROUP;
+use super::tables::{Tables, Term};
 use super::targets::{Buffers, MOST_PIECES, Target, TargetKey, Whole, lent_depth};
 use super::views::{Drawn, Views};
 use super::way::{Recording, Way};
 use crate::area_light::{Face, Form, Frame, ROUNDING, is_on_a_caster};
 use crate::casters::Edges;
 use crate::receivers::Eye;
-use crate::params::Settings;
 use crate::silhouettes::Part;
-use crate::technique::{DebugView, Stats, Technique};
+use crate::technique::{DebugView, Inside, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
 use umbrage_core::glam::DVec3;
 
@@ -43,7 +42,7 @@ pub(super) struct Wedges {
 const FACES: [u16; 24] = [5, 4, 2, 5, 2, 3, 1, 0, 2, 1, 2, 4, 0, 1, 5, 0, 5, 3, 0, 3, 2, 1, 4, 5];
 
 impl Wedges {
-    pub fn new(gpu: &Gpu, settings: &Settings) -> Result<Self, Error> {
+    pub fn new(gpu: &Gpu, settings: &super::Wedges) -> Result<Self, Error> {
         let options = Options::new(gpu, settings)?;
         let one_draw = || Box::new(OneDraw { is_split: options.split > 1 }) as Box<dyn Way>;
         let indices: Vec<u16> = (0..GROUP as u16).flat_map(|i| FACES.map(|corner| i * 6 + corner)).collect();
@@ -280,6 +279,16 @@ impl Technique for Wedges {
         Ok(())
     }
 
+    fn inside(&self) -> &dyn Inside {
+        self
+    }
+
+    fn inside_mut(&mut self) -> &mut dyn Inside {
+        self
+    }
+}
+
+impl Inside for Wedges {
     fn stats(&self) -> Stats {
         let thrown = self.pieces.iter().map(|p| p.selection.throws.len() as u32).max().unwrap_or(0);
         let sides: u64 = self.pieces.iter().map(|p| u64::from(p.silhouettes.room(Part::PassSides))).sum();

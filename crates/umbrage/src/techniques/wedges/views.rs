@@ -1,12 +1,12 @@
 //! Pictures of what happens inside: bodies, penumbras, overdraw, and what wedges add to the hard shadow.
 
 use super::pipelines::{Key, Resolve};
+use super::records::GROUP;
 use super::shaders;
 use super::stages::compare;
-use super::records::GROUP;
 use super::targets::{BUNDLES, Buffers, SINGLES, lent_depth};
-use crate::receivers::Eye;
 use crate::fullscreen::{FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout, target_texture, texture};
+use crate::receivers::Eye;
 use crate::technique::DebugView;
 use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View, visibility::VisibilityTarget};
 

@@ -17,7 +17,7 @@ fn filters() -> impl Iterator<Item = &'static TechniqueInfo> {
 }
 
 fn has(info: &TechniqueInfo, param: &str) -> bool {
-    info.params.iter().any(|p| p.name == param)
+    info.params().iter().any(|p| p.name == param)
 }
 
 /// Mean absolute errors may be so many times that of a cube's faces with projective depth.
@@ -44,7 +44,7 @@ fn maps_hold_the_distances_that_they_should() {
                 let mut renderer = renderer(&gpu, &scene, 0, "shadow-map", &set, (64, 48));
                 renderer.frame(&scene.camera).unwrap();
                 let technique = renderer.technique(0).unwrap();
-                for (view, map) in technique.light_views().iter().zip(technique.debug_views()) {
+                for (view, map) in technique.inside().light_views().iter().zip(technique.inside().debug_views()) {
                     let map = renderer.read_debug_view(&map).unwrap();
                     let on_top =
                         |i: i32| DVec3::new(f64::from(i % 40) / 25.0 - 0.78, -1.0, f64::from(i / 40) / 25.0 - 0.78);

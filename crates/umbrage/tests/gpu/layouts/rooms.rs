@@ -119,8 +119,8 @@ impl Traced {
         let produced = visibility(&mut renderer, &self.scene);
         let technique = renderer.technique(0).unwrap();
         let reach = map_reach(
-            technique.light_views(),
-            technique.split_distances(),
+            technique.inside().light_views(),
+            technique.inside().split_distances(),
             &self.scene.camera,
             &self.geometry.depth,
             &self.geometry.normal,

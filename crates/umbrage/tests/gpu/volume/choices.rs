@@ -72,7 +72,7 @@ fn the_overlay_darkens_what_is_in_any_shadow() {
     put(&mut scene, primitive::cube(), DAffine3::from_translation(DVec3::new(0.0, 1.5, 0.0)));
     let passes = (0..2).map(|light| {
         let info = find("volume").unwrap();
-        LightPass { light, technique: info.make(&gpu, &info.settings(&[]).unwrap()).unwrap() }
+        LightPass { light, technique: info.settings(&[]).unwrap().make(&gpu).unwrap() }
     });
     let mut renderer = Renderer::new(&gpu, &scene, 160, 120, passes.collect()).unwrap();
     renderer.frame(&scene.camera).unwrap();

@@ -19,7 +19,7 @@ fn unequal<T: PartialEq + Copy + std::fmt::Debug>(what: &str, drawn: &[(String, 
 
 /// Adds to `sums` what the renderer of settings number `i` left out.
 fn add_culled(sums: &mut BTreeMap<&'static str, u64>, bench: &mut Bench, i: usize) {
-    let counts = bench.renderer(i).technique(0).unwrap().counts();
+    let counts = bench.renderer(i).technique(0).unwrap().inside().counts();
     counts.into_iter().for_each(|(name, count)| *sums.entry(name).or_default() += count);
 }
 

@@ -136,7 +136,7 @@ impl Host {
         let casters = Casters::new(&self.gpu, scene)?;
         let visibility = VisibilityTarget::new(&self.gpu, SIZE.0, SIZE.1)?;
         let info = find("volume")?;
-        let mut technique = info.make(&self.gpu, &info.settings(&pairs(set))?)?;
+        let mut technique = info.settings(&pairs(set))?.make(&self.gpu)?;
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         self.draw(&mut encoder, scene, camera);
         let light = &scene.lights[0];

@@ -75,7 +75,7 @@ fn a_stencil_counter_without_a_stencil_is_a_clear_error() {
     let (gpu, scene) = (plain_gpu(), scene());
     let info = find("volume").unwrap();
     for set in ["counter=stencil", "stencil=two-pass"] {
-        let technique = info.make(&gpu, &info.settings(&pairs(set)).unwrap()).unwrap();
+        let technique = info.settings(&pairs(set)).unwrap().make(&gpu).unwrap();
         let mut renderer = Renderer::new(&gpu, &scene, 32, 24, vec![LightPass { light: 0, technique }]).unwrap();
         let error = renderer.frame(&scene.camera).expect_err("no stencil").to_string();
         assert!(error.contains("DEPTH32FLOAT_STENCIL8") && error.contains("counter=float"), "{set}: {error}");

@@ -148,7 +148,7 @@ impl Bench {
 
     /// What the renderer of settings number `i` counted of this.
     pub fn count_of(&mut self, i: usize, name: &str) -> u64 {
-        let counts = self.renderers[i].1.technique(0).unwrap().counts();
+        let counts = self.renderers[i].1.technique(0).unwrap().inside().counts();
         counts.iter().find(|(n, _)| *n == name).unwrap_or_else(|| panic!("no count {name}")).1
     }
 

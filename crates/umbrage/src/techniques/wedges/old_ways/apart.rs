@@ -107,7 +107,13 @@ impl Apart {
                 self.pieces.push(OfPiece::new(gpu, slots));
             }
             let own = &mut self.pieces[i];
-            find_groups(view.casters, &piece.silhouettes, &piece.selection, self.kind == Kind::Largest, &mut own.groups);
+            find_groups(
+                view.casters,
+                &piece.silhouettes,
+                &piece.selection,
+                self.kind == Kind::Largest,
+                &mut own.groups,
+            );
             own.count_eye(piece);
         }
     }
@@ -141,8 +147,7 @@ impl Way for Apart {
         targets: &[Target],
         pipelines: &mut Pipelines,
     ) -> Result<(), Error> {
-        let all: &[&'static Draw] =
-            &[&draws::SIDES, &draws::CAPS, &draws::BODIES, &LOOP_SIDES, &LOOP_BODIES];
+        let all: &[&'static Draw] = &[&draws::SIDES, &draws::CAPS, &draws::BODIES, &LOOP_SIDES, &LOOP_BODIES];
         let used = if self.kind == Kind::Largest { &all[..3] } else { all };
         prepare_draws(gpu, view, pieces, targets, used, pipelines);
         self.prepare_pieces(gpu, view, pieces);

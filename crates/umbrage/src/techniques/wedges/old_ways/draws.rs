@@ -79,11 +79,8 @@ pub(super) fn loop_format(gpu: &Gpu) -> wgpu::TextureFormat {
     if blends { wgpu::TextureFormat::Rgba32Float } else { wgpu::TextureFormat::Rgba16Float }
 }
 
-const MARKS: wgpu::StencilState = stencil(
-    wgpu::CompareFunction::Always,
-    wgpu::StencilOperation::Keep,
-    wgpu::StencilOperation::IncrementClamp,
-);
+const MARKS: wgpu::StencilState =
+    stencil(wgpu::CompareFunction::Always, wgpu::StencilOperation::Keep, wgpu::StencilOperation::IncrementClamp);
 const IS_MARKED: wgpu::StencilState =
     stencil(wgpu::CompareFunction::NotEqual, wgpu::StencilOperation::Keep, wgpu::StencilOperation::Keep);
 
@@ -97,7 +94,6 @@ const fn stencil(
     fail_op: wgpu::StencilOperation,
     pass_op: wgpu::StencilOperation,
 ) -> wgpu::StencilState {
-    let face =
-        wgpu::StencilFaceState { compare, fail_op, depth_fail_op: wgpu::StencilOperation::Keep, pass_op };
+    let face = wgpu::StencilFaceState { compare, fail_op, depth_fail_op: wgpu::StencilOperation::Keep, pass_op };
     wgpu::StencilState { front: face, back: face, read_mask: 0xff, write_mask: 0xff }
 }

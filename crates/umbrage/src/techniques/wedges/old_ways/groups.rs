@@ -33,8 +33,7 @@ pub(super) fn find_groups(
     let Some(edges) = casters.made_edges() else { return };
     for ((caster, throw), wedges) in (0_u32..).zip(&selection.throws).zip(silhouettes.sides()) {
         let (caps, wedges) = (selection.caps_of(caster), wedges.clone());
-        let is_loop =
-            || caps.is_empty() && is_convex_loop(casters, edges, silhouettes, throw, caster, wedges.clone());
+        let is_loop = || caps.is_empty() && is_convex_loop(casters, edges, silhouettes, throw, caster, wedges.clone());
         let (draws, is_apart): ([&'static Draw; 2], _) = match all {
             false if is_loop() => ([&LOOP_SIDES, &LOOP_BODIES], true),
             _ => ([&draws::SIDES, &draws::BODIES], all),

@@ -10,9 +10,9 @@ mod masked;
 
 pub(super) use draws::SHADERS;
 
-use super::options::ID;
+use super::Wedges;
+use super::options::{Batch, Combine, Cull, ID};
 use super::way::Way;
-use crate::params::Settings;
 use crate::{error::Error, gpu::Gpu};
 use apart::{Apart, Kind};
 use halves::PerWedge;
@@ -22,26 +22,25 @@ use masked::Masked;
 ///
 /// # Errors
 /// [`Error::Unsupported`] for what does not go together, or needs a feature that the device lacks.
-pub(super) fn way(gpu: &Gpu, settings: &Settings) -> Result<Option<Box<dyn Way>>, Error> {
-    let (batch, cull) = (settings.choice("batch"), settings.choice("cull"));
-    let largest = settings.choice("combine") == "max";
-    let stencil = cull == "stencil" || (cull == "auto" && batch == "per-wedge");
+pub(super) fn way(gpu: &Gpu, settings: &Wedges) -> Result<Option<Box<dyn Way>>, Error> {
+    let Wedges { batch, cull, combine, .. } = *settings;
+    let largest = combine == Combine::Max;
+    let stencil = cull == Cull::Stencil || (cull == Cull::Auto && batch == Batch::PerWedge);
     check(gpu, batch, largest, stencil)?;
     Ok(match batch {
         _ if largest => Some(Box::new(Apart::new(gpu, Kind::Largest))),
-        "per-loop" => Some(Box::new(Apart::new(gpu, Kind::Loops))),
-        "per-wedge" => Some(Box::new(PerWedge::new(gpu, stencil))),
-        _ if stencil => Some(Box::new(Masked::new(gpu))),
-        _ => None,
+        Batch::PerLoop => Some(Box::new(Apart::new(gpu, Kind::Loops))),
+        Batch::PerWedge => Some(Box::new(PerWedge::new(gpu, stencil))),
+        Batch::All => stencil.then(|| Box::new(Masked::new(gpu)) as Box<dyn Way>),
     })
 }
 
-fn check(gpu: &Gpu, batch: &str, largest: bool, stencil: bool) -> Result<(), Error> {
+fn check(gpu: &Gpu, batch: Batch, largest: bool, stencil: bool) -> Result<(), Error> {
     let refuse = |what: &str| Err(Error::Unsupported { technique: ID.into(), what: what.into() });
-    if largest && batch != "all" {
+    if largest && batch != Batch::All {
         return refuse("combine=max with batch, since it draws casters one by one; leave batch out");
     }
-    if stencil && (largest || batch == "per-loop") {
+    if stencil && (largest || batch == Batch::PerLoop) {
         return refuse("cull=stencil with loops or casters one by one; leave cull out");
     }
     if stencil && !gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL) {

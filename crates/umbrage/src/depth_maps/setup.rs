@@ -1,0 +1,198 @@
+//! What techniques with maps are asked for: the settings that they share, and what one technique hands to another.
+
+use crate::{choices, settings};
+use umbrage_core::light_view::{Cascades, Focus, Omni, Warp};
+
+choices! {
+    /// Which surface a map holds.
+    pub enum Faces {
+        /// The nearest one.
+        Front = "front",
+        /// The nearest that faces away from the light; for closed meshes only.
+        Back = "back",
+        /// The middle between the nearest two.
+        Midpoint = "midpoint",
+    }
+}
+
+choices! {
+    /// What a map covers.
+    pub enum Covers {
+        /// What the camera sees of the receivers.
+        Visible = "visible",
+        /// All that the light reaches, steady under a moving camera.
+        Light = "light",
+    }
+}
+
+choices! {
+    /// The maps of a light that shines to all sides.
+    pub enum Layout {
+        /// Six faces of a cube.
+        Cube = "cube",
+        /// Two paraboloids.
+        DualParaboloid = "dual-paraboloid",
+        /// Four faces of a tetrahedron.
+        Tetrahedral = "tetrahedral",
+    }
+}
+
+choices! {
+    /// What maps seen from a point store.
+    pub enum Depth {
+        /// Near plane over distance, as the projection has it.
+        Projective = "projective",
+        /// A depth that falls linearly with the distance.
+        Linear = "linear",
+    }
+}
+
+settings! {
+    /// What every technique with maps has.
+    pub struct Map {
+        /// Width and height of a map; a light to all sides has several, see `omni`.
+        size: u32 = 1024, in 1..=16384, unit "texels", live true,
+        /// Which surface the map holds: the nearest one, the nearest that faces away (closed meshes only), or the
+        /// middle between the nearest two.
+        faces: Faces = Faces::Front,
+        /// Keeps a map while its view stays the same and draws only what moves; see `focus` for views that stay.
+        cache: bool = true, live true,
+        /// Multiplies the automatic depth bias; for experiments, 1 is right.
+        bias: f64 = 1.0, in 0.0..=100.0, live true,
+    }
+}
+
+settings! {
+    /// What a light's maps cover, where they are neither split nor warped.
+    pub struct Cover {
+        /// The maps of a light that shines to all sides: six faces of a cube, two paraboloids (finely tessellated casters only) or
+        /// four faces of a tetrahedron.
+        omni: Layout = Layout::Cube, live true,
+        /// What the map covers: what the camera sees of the receivers, or all that the light reaches (steady under a
+        /// moving camera).
+        focus: Covers = Covers::Visible, live true,
+    }
+}
+
+settings! {
+    /// How depth is stored.
+    pub struct Storage {
+        /// What maps seen from a point store: near / distance as the projection has it, or a depth that falls linearly with
+        /// the distance. Maps of parallel light are linear.
+        depth: Depth = Depth::Projective, live true,
+    }
+}
+
+/// How the views of a light are chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fitting {
+    /// One view, or one for each side that the light shines to.
+    One {
+        /// What it covers.
+        focus: Focus,
+        /// The maps of a light to all sides.
+        omni: Omni,
+    },
+    /// What the camera sees is split by distance.
+    Splits(Splits),
+    /// Texels are smaller near the camera.
+    Warp(Warp),
+}
+
+/// How what the camera sees is split.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Splits {
+    /// Where the splits end and what their maps cover.
+    pub cascades: Cascades,
+    /// How one split passes into the next.
+    pub blend: Blend,
+    /// Splits are fitted to visible depths on the GPU.
+    pub depth_fit: bool,
+}
+
+choices! {
+    /// Which compares percentage-closer filtering averages.
+    pub enum Kernel {
+        /// The 2×2 texels that one hardware compare takes.
+        Hardware = "2x2",
+        /// 3×3 bilinear compares.
+        Square3 = "3",
+        /// 5×5 bilinear compares.
+        Square5 = "5",
+        /// 7×7 bilinear compares.
+        Square7 = "7",
+        /// A Vogel disc.
+        Disc = "disc",
+    }
+}
+
+choices! {
+    /// How one split passes into the next.
+    pub enum Blend {
+        /// Both are looked up and mixed.
+        Lerp = "lerp",
+        /// By a pattern of pixels.
+        Dither = "dither",
+        /// At once.
+        Off = "off",
+    }
+}
+
+/// How soft a filter of one width is to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Softness {
+    /// As the filter's own settings say.
+    Own,
+    /// In texels: what percentage-closer filters average; others keep their own.
+    Texels(Kernel),
+    /// A radius in metres, the same in all maps.
+    Metres(f64),
+}
+
+/// What maps a technique renders: what `cascaded` and the warps hand to their filter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapSetup {
+    /// Texels across and down.
+    pub size: u32,
+    /// Which surface a map holds.
+    pub faces: Faces,
+    /// How maps seen from a point store depth.
+    pub depth: Depth,
+    /// Maps are kept while they stay the same.
+    pub cache: bool,
+    /// Multiplies the automatic depth bias.
+    pub bias: f64,
+    /// How views are chosen.
+    pub fitting: Fitting,
+    /// How soft a filter of one width is.
+    pub softness: Softness,
+}
+
+impl Map {
+    /// Maps whose views are chosen by `fitting`.
+    pub fn fitted(&self, fitting: Fitting, softness: Softness) -> MapSetup {
+        let Self { size, faces, cache, bias } = *self;
+        MapSetup { size, faces, depth: Depth::Projective, cache, bias, fitting, softness }
+    }
+
+    /// Maps of a light's own view or views.
+    pub fn covering(&self, cover: &Cover, depth: Depth) -> MapSetup {
+        MapSetup { depth, ..self.fitted(cover.fitting(), Softness::Own) }
+    }
+}
+
+impl Cover {
+    /// One view, or those of a light to all sides.
+    pub fn fitting(&self) -> Fitting {
+        let focus = match self.focus {
+            Covers::Visible => Focus::Visible,
+            Covers::Light => Focus::Light,
+        };
+        let omni = match self.omni {
+            Layout::Cube => Omni::Cube,
+            Layout::DualParaboloid => Omni::DualParaboloid,
+            Layout::Tetrahedral => Omni::Tetrahedral,
+        };
+        Fitting::One { focus, omni }
+    }
+}
