@@ -43,7 +43,7 @@ fn plain() -> (Gpu, Arc<Mutex<Vec<String>>>) {
 
 fn picture(gpu: &Gpu, scene: &Scene, id: &str, set: &str) -> Result<Image<f32>, Error> {
     let info = find(id)?;
-    let technique = info.make(gpu, &info.settings(&pairs(set))?)?;
+    let technique = info.settings(&pairs(set))?.make(gpu)?;
     let mut renderer = Renderer::new(gpu, scene, SIZE.0, SIZE.1, vec![LightPass { light: 0, technique }])?;
     renderer.frame(&scene.camera)?;
     renderer.visibility(0)
