@@ -17,7 +17,7 @@ fn scene(id: &str) -> Scene {
 fn make(gpu: &Gpu, id: &str, set: &[(&str, &str)]) -> Box<dyn Technique> {
     let info = find(id).unwrap();
     let set: Vec<_> = set.iter().map(|(name, value)| (name.to_string(), value.to_string())).collect();
-    info.make(gpu, &info.settings(&set).unwrap()).unwrap()
+    info.settings(&set).unwrap().make(gpu).unwrap()
 }
 
 /// A renderer with a technique for each of the first lights.
