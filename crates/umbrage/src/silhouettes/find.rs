@@ -1,25 +1,17 @@
 //! Finding silhouettes by compute.
 
-use super::work::{Buffers, Work};
-use super::{FIND_SHADER, Part, Shape};
+use super::buffers::{Buffers, FindSilhouettes};
+use super::shape::{Part, Shape};
+use super::work::Work;
 use crate::casters::Edges;
 use crate::fullscreen::{STORAGE, UNIFORM, layout};
-use crate::shader::shader_struct;
+use crate::shader::Shader;
 use crate::{gpu::Gpu, passes::Passes};
 use std::ops::Range;
 
-shader_struct! {
-    /// See `find_silhouettes.wgsl`.
-    pub(crate) struct FindSilhouettes {
-        edge_chunks: u32,
-        triangle_chunks: u32,
-        weighted: u32,
-        pad: u32,
-    }
-}
-
-/// Bytes of the arguments of an indirect draw.
-pub(super) const ARGUMENTS: u64 = size_of::<wgpu::util::DrawIndexedIndirectArgs>() as u64;
+/// Finds what bounds a shadow, by compute.
+pub(crate) const FIND_SHADER: Shader =
+    Shader::new("find silhouettes", include_str!("find_silhouettes.wgsl")).with_layouts(&[FindSilhouettes::LAYOUT]);
 
 /// Workgroups in a row, the most that every adapter allows.
 const ROW: u32 = 65_535;

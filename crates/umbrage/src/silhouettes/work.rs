@@ -1,9 +1,10 @@
 //! What a frame's casters come to: their chunks, room for what may be found, and the CPU's own search.
 
-use super::{CHUNK, Caster, DARK_CAP, Extrusion, LIGHT_CAP, Part, Shape, Throw, Z_FAIL, caster, find};
+use super::buffers::Needs;
+use super::caster::{self, AWAY, CHUNK, Caster, DARK_CAP, HEADER, LIGHT_CAP, Throw, Z_FAIL};
+use super::shape::{Part, Shape};
 use crate::casters::{Casters, Edges};
-use crate::fullscreen::bind;
-use crate::{error::Error, gpu::Gpu};
+use crate::error::Error;
 use std::ops::Range;
 use umbrage_core::glam::{Vec3, Vec4};
 use umbrage_core::silhouette::{Rule, facing, multiplicity};
@@ -28,15 +29,6 @@ pub(super) struct Work {
     triangles: u64,
 }
 
-/// Bytes that buffers need to have.
-pub(super) struct Needs {
-    casters: u64,
-    list: u64,
-}
-
-/// Words that a list starts with: for each part where its entries start and how many there are. The chunks follow.
-const HEADER: u32 = 8;
-
 /// More entries than this do not fit their numbering.
 const MOST: u64 = 1 << 29;
 
@@ -51,7 +43,7 @@ impl Work {
     }
 
     pub fn add(&mut self, casters: &Casters, edges: &Edges, throw: &Throw, weighted: bool) {
-        let Some(mut new) = caster(casters, edges, throw) else { return };
+        let Some(mut new) = caster::caster(casters, edges, throw) else { return };
         new.edge_chunk = self.edge_chunks;
         let chunks = new.edge_count.div_ceil(CHUNK);
         self.add_chunks(self.casters.len() as u32, chunks);
@@ -165,7 +157,7 @@ impl Work {
 
     /// How often every edge is drawn for those that count twice.
     pub fn repeats(&self, part: Part, shape: Shape) -> u32 {
-        let once = part == Part::Caps || shape.weighted || self.casters.iter().all(|c| c.flags & super::AWAY != 0);
+        let once = part == Part::Caps || shape.weighted || self.casters.iter().all(|c| c.flags & AWAY != 0);
         if once { 1 } else { 2 }
     }
 
@@ -198,64 +190,5 @@ impl Work {
 
     pub fn counts(&self) -> [u32; 3] {
         self.counts
-    }
-}
-
-/// What a frame's casters and lists are uploaded to.
-pub(super) struct Buffers {
-    pub casters: wgpu::Buffer,
-    pub list: wgpu::Buffer,
-    pub arguments: wgpu::Buffer,
-    pub find_uniform: wgpu::Buffer,
-    pub extrusion: wgpu::Buffer,
-    pub draw: wgpu::BindGroup,
-    pub find: Option<wgpu::BindGroup>,
-}
-
-impl Buffers {
-    pub fn new(
-        gpu: &Gpu,
-        needs: &Needs,
-        draw_layout: &wgpu::BindGroupLayout,
-        find_layout: Option<&wgpu::BindGroupLayout>,
-    ) -> Result<Self, Error> {
-        use wgpu::BufferUsages as Usage;
-        let limit = gpu.device.limits().max_storage_buffer_binding_size;
-        let largest = needs.list.max(needs.casters);
-        if largest > limit {
-            return Err(Error::Size { what: "a list of silhouettes".into(), size: largest, limit });
-        }
-        // Half as much again, so that a moving camera does not make it grow all the time.
-        let room = |bytes: u64| (bytes + bytes / 2).next_multiple_of(256).clamp(256, limit);
-        let buffer = |label, size, usage| {
-            let usage = usage | Usage::COPY_DST;
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
-        let casters = buffer("casters of a light", room(needs.casters), Usage::STORAGE);
-        let list = buffer("silhouettes", room(needs.list), Usage::STORAGE);
-        let indirect = Usage::STORAGE | Usage::INDIRECT | Usage::COPY_SRC;
-        let arguments = buffer("draws of silhouettes", 3 * find::ARGUMENTS, indirect);
-        let find_uniform = buffer("find silhouettes", size_of::<find::FindSilhouettes>() as u64, Usage::UNIFORM);
-        let extrusion = buffer("extrusion", size_of::<Extrusion>() as u64, Usage::UNIFORM);
-        let shared = [&casters, &list].map(|b| b.as_entire_binding());
-        let draw_extra = [extrusion.as_entire_binding()];
-        let find_extra = [arguments.as_entire_binding(), find_uniform.as_entire_binding()];
-        let draw = bind(gpu, "silhouettes", draw_layout, &[&shared[..], &draw_extra].concat());
-        let find = find_layout.map(|l| bind(gpu, "find silhouettes", l, &[&shared[..], &find_extra].concat()));
-        Ok(Self { draw, find, casters, list, arguments, find_uniform, extrusion })
-    }
-
-    pub fn hold(&self, needs: &Needs) -> bool {
-        self.casters.size() >= needs.casters && self.list.size() >= needs.list
-    }
-
-    pub fn bytes(&self) -> u64 {
-        let all = [&self.casters, &self.list, &self.arguments, &self.find_uniform, &self.extrusion];
-        all.iter().map(|b| b.size()).sum()
     }
 }

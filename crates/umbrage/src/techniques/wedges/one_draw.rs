@@ -1,10 +1,10 @@
 //! All wedges of a piece in one draw, whatever throws the shadows.
 
 use super::draws::{self, Draw};
-use super::piece::{Piece, prepare_draws};
+use super::piece::{Piece, Recording, prepare_draws};
 use super::pipelines::Pipelines;
 use super::targets::{BUNDLES, SINGLES, Target};
-use super::way::{Recording, Way};
+use super::way::Way;
 use crate::fullscreen::attachment;
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
 

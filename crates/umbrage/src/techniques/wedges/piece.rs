@@ -6,7 +6,6 @@ use super::records::{GROUP, WINDOW};
 use super::select::{CHUNK, Selection};
 use super::tables::Term;
 use super::targets::{Buffers, Needs, Target};
-use super::way::Recording;
 use crate::area_light::{Form, Frame, ROUNDING};
 use crate::casters::Edges;
 use crate::receivers::Eye;
@@ -31,6 +30,15 @@ pub(super) struct Piece {
     pub selection: Selection,
     pub silhouettes: Silhouettes,
     pub buffers: Option<Buffers>,
+}
+
+/// What recording takes.
+pub(super) struct Recording<'a> {
+    pub pipelines: &'a Pipelines,
+    pub target: &'a Target,
+    pub body_indices: &'a wgpu::Buffer,
+    /// Tables that shares are looked up in.
+    pub tables: &'a wgpu::BindGroup,
 }
 
 impl Piece {

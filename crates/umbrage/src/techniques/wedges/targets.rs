@@ -4,9 +4,9 @@ use super::pipelines::Pipelines;
 use super::records::{BUNDLE, BUNDLE_RECORD, CAP_RECORD, GROUP, RECORD};
 use super::select::CHUNK;
 use crate::area_light::{AreaLight, scaled};
-use crate::fullscreen::{bind, target_texture};
 use crate::receivers::Eye;
-use crate::{error::Error, gpu::Gpu, receivers::Receivers, view::View};
+use crate::fullscreen::{bind, target_texture};
+use crate::{error::Error, gpu::Gpu, passes::Passes, receivers::Receivers, view::View};
 
 /// Where in [`Buffers::bodies`] the arguments of the draws of single wedges and of bundles are.
 pub(super) const SINGLES: u64 = 20;
@@ -196,6 +196,31 @@ impl Target {
     /// What bodies are compared with, where there is something.
     pub fn depth<'a>(&'a self, view: &View<'a>) -> Option<&'a wgpu::TextureView> {
         self.own_depth.as_ref().or_else(|| lent_depth(view.receivers))
+    }
+
+    /// Makes its own depth, if it has one; gives the number of draws.
+    pub fn copy_depth(
+        &self,
+        passes: &mut Passes<'_>,
+        view: &View<'_>,
+        pipelines: &Pipelines,
+        buffers: &Buffers,
+    ) -> u32 {
+        let Some(depth) = &self.own_depth else { return 0 };
+        let Some(pipeline) = pipelines.depth(depth.texture().format()) else { return 0 };
+        let has_stencil = depth.texture().format().has_stencil_aspect();
+        let attachment = wgpu::RenderPassDepthStencilAttachment {
+            view: depth,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+            stencil_ops: has_stencil
+                .then_some(wgpu::Operations { load: wgpu::LoadOp::Clear(0), store: wgpu::StoreOp::Discard }),
+        };
+        let mut pass = passes.render("depth of wedges", &[], Some(attachment));
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &view.receivers.bind_group, &[]);
+        pass.set_bind_group(1, &buffers.depth, &[]);
+        pass.draw(0..3, 0..1);
+        1
     }
 
     pub fn size(&self) -> (u32, u32) {

@@ -5,13 +5,13 @@ use super::draws;
 use super::old_ways;
 use super::one_draw::OneDraw;
 use super::options::{ID, Options};
-use super::piece::{Piece, is_reversed};
+use super::piece::{Piece, Recording, is_reversed};
 use super::pipelines::{Key, Pipelines, Resolve};
 use super::records::GROUP;
 use super::tables::{Tables, Term};
-use super::targets::{Buffers, MOST_PIECES, Target, TargetKey, Whole, lent_depth};
+use super::targets::{MOST_PIECES, Target, TargetKey, Whole, lent_depth};
 use super::views::{Drawn, Views};
-use super::way::{Recording, Way};
+use super::way::Way;
 use crate::area_light::{Face, Form, Frame, ROUNDING, is_on_a_caster};
 use crate::casters::Edges;
 use crate::receivers::Eye;
@@ -147,7 +147,7 @@ impl Wedges {
             let recording = Recording { pipelines, target, body_indices, tables };
             piece.build(passes, view, edges, self.way.bundles(), &recording);
             if i == 0 {
-                draws += copy_depth(passes, view, pipelines, target, buffers);
+                draws += target.copy_depth(passes, view, pipelines, buffers);
             }
             draws += self.way.add_up(passes, view, i, piece, &recording);
         }
@@ -220,31 +220,6 @@ fn resolve_key(view: &View<'_>, form: &Form, term: Term, target: &Target) -> Res
 /// Of the receivers' own depth, where it can be attached, the format and whether near is 1.
 fn compared_depth(view: &View<'_>) -> Option<(wgpu::TextureFormat, bool)> {
     lent_depth(view.receivers).map(|d| (d.texture().format(), is_reversed(view)))
-}
-
-/// Makes the target's own depth, if it has one; gives the number of draws.
-fn copy_depth(
-    passes: &mut Passes<'_>,
-    view: &View<'_>,
-    pipelines: &Pipelines,
-    target: &Target,
-    buffers: &Buffers,
-) -> u32 {
-    let Some(depth) = &target.own_depth else { return 0 };
-    let Some(pipeline) = pipelines.depth(depth.texture().format()) else { return 0 };
-    let has_stencil = depth.texture().format().has_stencil_aspect();
-    let attachment = wgpu::RenderPassDepthStencilAttachment {
-        view: depth,
-        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
-        stencil_ops: has_stencil
-            .then_some(wgpu::Operations { load: wgpu::LoadOp::Clear(0), store: wgpu::StoreOp::Discard }),
-    };
-    let mut pass = passes.render("depth of wedges", &[], Some(attachment));
-    pass.set_pipeline(pipeline);
-    pass.set_bind_group(0, &view.receivers.bind_group, &[]);
-    pass.set_bind_group(1, &buffers.depth, &[]);
-    pass.draw(0..3, 0..1);
-    1
 }
 
 impl Technique for Wedges {

@@ -1,6 +1,6 @@
 //! How the wedges of a light's pieces are drawn: all at once, see `one_draw.rs`, or as the texts do, see `old_ways`.
 
-use super::piece::Piece;
+use super::piece::{Piece, Recording};
 use super::pipelines::Pipelines;
 use super::targets::Target;
 use crate::silhouettes::Extrude;
@@ -48,13 +48,4 @@ pub(super) trait Way: Send {
     fn bytes(&self) -> u64 {
         0
     }
-}
-
-/// What recording takes.
-pub(super) struct Recording<'a> {
-    pub pipelines: &'a Pipelines,
-    pub target: &'a Target,
-    pub body_indices: &'a wgpu::Buffer,
-    /// Tables that shares are looked up in.
-    pub tables: &'a wgpu::BindGroup,
 }

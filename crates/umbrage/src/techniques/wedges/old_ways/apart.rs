@@ -2,11 +2,11 @@
 //! which the largest share counts (`combine = max`).
 
 use super::super::draws::{self, Draw, shares_format};
-use super::super::piece::{Piece, prepare_draws};
+use super::super::piece::{Piece, Recording, prepare_draws};
 use super::super::pipelines::Pipelines;
 use super::super::stages::Stages;
 use super::super::targets::{Target, TargetKey};
-use super::super::way::{Recording, Way};
+use super::super::way::Way;
 use super::draws::{APART, LOOP_BODIES, LOOP_SIDES, loop_format};
 use super::groups::{Group, find_groups};
 use super::listed;

@@ -1,11 +1,11 @@
 //! `batch = per-wedge`: one wedge after the other, in two halves, each with a mask if there is one (PX 4.1–4.3).
 
 use super::super::draws::{self, Draw};
-use super::super::piece::{BODY_INDICES, Piece, dispatch, prepare_draws};
+use super::super::piece::{BODY_INDICES, Piece, Recording, dispatch, prepare_draws};
 use super::super::pipelines::{Pipelines, compute};
 use super::super::records::{GROUP, RECORD};
 use super::super::targets::Target;
-use super::super::way::{Recording, Way};
+use super::super::way::Way;
 use super::draws::{BACK, FRONT, FRONT_MASK, HALF_RECORD, HALVES, MASKED_BACK, MASKED_FRONT, halves_layout};
 use super::listed::{self, BODY_CORNERS};
 use super::masked::{CLEARED, stencil_format};

@@ -1,9 +1,8 @@
 //! Draws of wedges that the CPU listed.
 
 use super::super::draws::Draw;
-use super::super::piece::{BODY_INDICES, Piece};
+use super::super::piece::{BODY_INDICES, Piece, Recording};
 use super::super::records::GROUP;
-use super::super::way::Recording;
 use crate::view::View;
 use std::ops::Range;
 

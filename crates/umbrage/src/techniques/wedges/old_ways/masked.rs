@@ -1,10 +1,10 @@
 //! `cull = stencil`: a mask of what is in any body, before the one draw of shares.
 
 use super::super::draws;
-use super::super::piece::{Piece, prepare_draws};
+use super::super::piece::{Piece, Recording, prepare_draws};
 use super::super::pipelines::Pipelines;
 use super::super::targets::Target;
-use super::super::way::{Recording, Way};
+use super::super::way::Way;
 use super::draws::{MASK, MASKED_BODIES};
 use crate::fullscreen::attachment;
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
