@@ -2,8 +2,9 @@
 
 use anyhow::Result;
 use clap::Args;
+use std::path::PathBuf;
 use umbrage::Gpu;
-use umbrage_report::{Choice, Source};
+use umbrage_report::{Choice, Folder, Source};
 
 /// Which adapter to use.
 #[derive(Args)]
@@ -57,6 +58,14 @@ impl What {
 /// Says what its user should know of a choice.
 pub fn print_note(choice: &Choice) {
     choice.note.iter().for_each(|note| eprintln!("note: {note}"));
+}
+
+/// A folder for traced references that can be written to.
+pub fn truth_cache(folder: Option<PathBuf>) -> Result<Option<PathBuf>> {
+    if let Some(folder) = &folder {
+        Folder::check(folder)?;
+    }
+    Ok(folder)
 }
 
 /// Width and height in pixels.

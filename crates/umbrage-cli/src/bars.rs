@@ -35,6 +35,13 @@ impl Progress for Bars {
         self.with(|slot| slot.iter().for_each(|bar| bar.set_position(done)));
     }
 
+    fn note(&self, text: &str) {
+        self.with(|slot| match slot {
+            Some(bar) => bar.suspend(|| eprintln!("note: {text}")),
+            None => eprintln!("note: {text}"),
+        });
+    }
+
     fn end(&self) {
         self.with(|slot| slot.take().iter().for_each(ProgressBar::finish_and_clear));
     }

@@ -31,6 +31,9 @@ pub struct Compare {
     /// Stored references to score against instead of tracing them; they bring their size
     #[arg(long, value_name = "DIR")]
     reference: Option<PathBuf>,
+    /// Folder where traced references are kept and found again, by what determines them
+    #[arg(long, value_name = "DIR")]
+    truth_cache: Option<PathBuf>,
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = args::size)]
     size: Size,
@@ -60,6 +63,7 @@ impl Compare {
             size: (self.size.width, self.size.height),
             samples: self.samples,
             reference: self.reference,
+            truth_cache: args::truth_cache(self.truth_cache)?,
             frames: self.frames,
             command: args::command_line(),
         };

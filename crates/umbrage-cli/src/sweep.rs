@@ -38,10 +38,13 @@ pub struct Sweep {
     /// Stored references to score against instead of tracing them; they bring their size
     #[arg(long, value_name = "DIR")]
     reference: Option<PathBuf>,
+    /// Folder where traced references are kept and found again, by what determines them
+    #[arg(long, value_name = "DIR")]
+    truth_cache: Option<PathBuf>,
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = args::size)]
     size: Size,
-    /// Frames of each setting that times are medians of
+    /// Frames of each setting that times are medians of; fewer where they take more than 4 s together
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: u32,
     /// Folder to write to
@@ -68,6 +71,7 @@ impl Sweep {
             size: (self.size.width, self.size.height),
             samples: self.samples,
             reference: self.reference,
+            truth_cache: args::truth_cache(self.truth_cache)?,
             frames: self.frames,
             command: args::command_line(),
         };

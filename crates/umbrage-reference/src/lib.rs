@@ -8,6 +8,7 @@ mod bvh;
 pub mod closed_form;
 mod cutout;
 mod geometry;
+mod kept;
 mod light_view;
 mod shaft;
 mod tracer;
@@ -15,5 +16,6 @@ mod triangle;
 mod visibility;
 
 pub use geometry::{Geometry, Surface};
+pub use kept::{Kept, Key, SceneKey, Traced};
 pub use tracer::Tracer;
 pub use visibility::{Options, Truth};

@@ -6,8 +6,9 @@ use crate::{
     given::Given,
     measure::{Frames, is_of_technique},
     pictures::{Pictures, grey, opaque},
-    record::{CostRecord, PassRecord, ReferenceRecord, ResultRecord, ScoresRecord, Status},
+    record::{CostRecord, PassRecord, ReferenceRecord, ResultRecord, ScoresRecord},
     source::Source,
+    stage::{Actor, Stage},
     truth::{Tracing, Truth},
 };
 use std::{collections::BTreeMap, time::Duration};
@@ -26,58 +27,59 @@ pub(crate) struct Cell<'a> {
     pub light: usize,
     pub truth: &'a Truth,
     pub tracing: &'a Tracing,
-    pub frames: u32,
+}
+
+/// A technique's last frame, held against the truth.
+pub(crate) struct Scored {
+    pub scores: ScoresRecord,
+    pub cost: CostRecord,
+    visibility: Image<f32>,
+    /// For techniques with maps: how large their texels are on the screen.
+    footprint: Option<Image<f32>>,
 }
 
 /// Time for the frames of one technique; one that needs longer is measured over fewer.
-const TIME_LIMIT: Duration = Duration::from_secs(4);
+pub(crate) const TIME_LIMIT: Duration = Duration::from_secs(4);
 
 impl Cell<'_> {
-    /// Runs a technique; what it can't do and what goes wrong is in the record.
-    pub(crate) fn run(&self, choice: &Choice, place: &str, pictures: &mut Pictures) -> ResultRecord {
-        let mut record = ResultRecord {
-            technique: choice.info.id.into(),
-            title: choice.info.title.into(),
-            settings: choice.changed().clone(),
-            light_samples: choice.light_samples,
-            status: Status::Ok,
-            reason: None,
-            scores: None,
-            cost: None,
-            aliasing: None,
-            pictures: BTreeMap::new(),
-        };
-        if let Err(error) = self.fill(&mut record, choice, place, pictures) {
-            let (status, reason) = match error {
-                Error::Gpu(umbrage::Error::Unsupported { what, .. }) => {
-                    (Status::Unsupported, format!("not for {what}"))
-                }
-                other => (Status::Failed, other.to_string()),
-            };
-            record.scores = None;
-            record.cost = None;
-            record.aliasing = None;
-            record.pictures.clear();
-            (record.status, record.reason) = (status, Some(reason));
+    /// Runs a technique over up to `frames`; what it can't do and what goes wrong is in the record.
+    pub(crate) fn run(
+        &self,
+        stage: &mut Stage<'_>,
+        choice: &Choice,
+        frames: u32,
+        place: &str,
+        pictures: &mut Pictures,
+    ) -> ResultRecord {
+        let mut record = ResultRecord::of(choice);
+        let mut shown = Pictures::default();
+        let filled = self.actor(choice).and_then(|actor| {
+            stage.act(self.light, actor, |renderer| self.fill(&mut record, renderer, choice, frames, place, &mut shown))
+        });
+        match filled {
+            Ok(_) => pictures.files.append(&mut shown.files),
+            Err(error) => record.fail(&error),
         }
         record
+    }
+
+    /// The technique of a choice, where it can do the light.
+    pub(crate) fn actor(&self, choice: &Choice) -> Result<Actor, Error> {
+        choice.supports(self.source.scene.lights[self.light].shape.kind())?;
+        Actor::of(choice, self.gpu)
     }
 
     fn fill(
         &self,
         record: &mut ResultRecord,
+        renderer: &mut Renderer,
         choice: &Choice,
+        frames: u32,
         place: &str,
         pictures: &mut Pictures,
     ) -> Result<(), Error> {
-        choice.supports(self.source.scene.lights[self.light].shape.kind())?;
-        let mut renderer = self.renderer(choice.make(self.gpu)?)?;
-        let frames = Frames::measure(&mut renderer, &self.source.scene.camera, self.frames, TIME_LIMIT)?;
-        let visibility = renderer.visibility(0)?;
-        let footprint = self.footprint(&renderer);
-        let scores = self.score(&visibility, footprint.as_ref().map(reach_of).as_ref())?;
-        record.scores = Some(ScoresRecord { seam: self.seam(&visibility, &renderer)?, ..scores.into() });
-        record.cost = Some(cost(&frames, &renderer));
+        let Scored { scores, cost, visibility, footprint } = self.scored(renderer, frames)?;
+        (record.scores, record.cost) = (Some(scores), Some(cost));
         let error = heat(&visibility, &self.truth.visibility, &self.truth.mask);
         let name = format!("{place}-{}", choice.label());
         record.pictures = BTreeMap::from([
@@ -91,6 +93,16 @@ impl Cell<'_> {
             record.pictures.insert("aliasing", picture);
         }
         Ok(())
+    }
+
+    /// Measures up to `frames` of the technique on stage, and scores the last.
+    pub(crate) fn scored(&self, renderer: &mut Renderer, frames: u32) -> Result<Scored, Error> {
+        let frames = Frames::measure(renderer, &self.source.scene.camera, frames, TIME_LIMIT)?;
+        let visibility = renderer.visibility(0)?;
+        let footprint = self.footprint(renderer);
+        let scores = self.score(&visibility, footprint.as_ref().map(reach_of).as_ref())?;
+        let scores = ScoresRecord { seam: self.seam(&visibility, renderer)?, ..scores.into() };
+        Ok(Scored { scores, cost: cost(&frames, renderer), visibility, footprint })
     }
 
     /// The record of the truth itself, with the scene shaded under it. Where the GPU fails, that picture is left out:
@@ -123,7 +135,7 @@ impl Cell<'_> {
     }
 
     /// Errors of a visibility picture of this light.
-    pub(crate) fn score(&self, produced: &Image<f32>, reach: Option<&Image<f32>>) -> Result<Scores, Error> {
+    fn score(&self, produced: &Image<f32>, reach: Option<&Image<f32>>) -> Result<Scores, Error> {
         let Truth { visibility, mask, hard, .. } = self.truth;
         Ok(score(&Comparison { produced, reference: visibility, mask, hard: hard.as_ref(), reach })?)
     }

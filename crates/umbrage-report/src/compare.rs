@@ -11,11 +11,11 @@ use crate::{
     progress::Progress,
     record::{LightRecord, Report, SCHEMA, SceneRecord},
     source::Source,
-    truth::Tracing,
+    stage::{Stage, check_choices},
+    truth::{Tracing, size_of},
 };
 use std::path::PathBuf;
 use umbrage::Gpu;
-use umbrage_io::stored::StoredReference;
 
 /// What to compare, and how.
 #[derive(Clone, Debug)]
@@ -30,6 +30,8 @@ pub struct Compare {
     pub samples: u32,
     /// A folder of stored references to use instead of tracing.
     pub reference: Option<PathBuf>,
+    /// A folder where what is traced is kept and found again.
+    pub truth_cache: Option<PathBuf>,
     /// Frames to measure times over.
     pub frames: u32,
     /// The command line, for the record.
@@ -68,30 +70,11 @@ impl Compare {
         for (source, lights) in &self.scenes {
             for &light in lights {
                 source.light(light)?;
-                self.size_of(source, light)?;
+                size_of(self.size, self.reference.as_deref(), source, light)?;
             }
         }
         Ok(())
     }
-
-    /// The size asked for, or that of the stored reference.
-    fn size_of(&self, source: &Source, light: usize) -> Result<(u32, u32), Error> {
-        match &self.reference {
-            None => Ok(self.size),
-            Some(folder) => Ok(StoredReference::open(folder, &source.stem(), light)?.visibility.size()),
-        }
-    }
-}
-
-/// Makes each technique once, for settings that the adapter refuses. What it can't do at all is no error here.
-pub(crate) fn check_choices(choices: &[Choice], gpu: &Gpu) -> Result<(), Error> {
-    for choice in choices {
-        match choice.make(gpu) {
-            Ok(_) | Err(Error::Gpu(umbrage::Error::Unsupported { .. })) => {}
-            Err(error) => return Err(error),
-        }
-    }
-    Ok(())
 }
 
 /// A comparison under way.
@@ -104,15 +87,17 @@ struct Run<'a> {
 
 impl Run<'_> {
     fn scene(&mut self, number: usize, source: &Source, lights: &[usize]) -> Result<SceneRecord, Error> {
-        let scene = &source.scene;
-        let (width, height) = lights.first().map_or(Ok(self.plan.size), |&light| self.plan.size_of(source, light))?;
+        let (scene, plan) = (&source.scene, self.plan);
+        let first = lights.first().copied().unwrap_or_default();
+        let (width, height) = size_of(plan.size, plan.reference.as_deref(), source, first)?;
         self.progress.begin(&format!("{}: geometry", scene.name), 1);
-        let tracing = Tracing::new(source, width, height);
+        let tracing = Tracing::new(source, width, height).kept_in(source, plan.truth_cache.as_deref());
         self.progress.end();
+        let mut stage = Stage::new(self.gpu, source, (width, height));
         let mut records = Vec::new();
         for &light in lights {
             let place = format!("{number}-{}-light{light}", source.stem());
-            records.push(self.light(source, light, &tracing, &place)?);
+            records.push(self.light(&mut stage, source, light, &tracing, &place)?);
         }
         Ok(SceneRecord {
             name: scene.name.clone(),
@@ -127,25 +112,24 @@ impl Run<'_> {
     }
 
     /// One light under all techniques; `place` starts the names of its pictures.
-    fn light(&mut self, source: &Source, light: usize, tracing: &Tracing, place: &str) -> Result<LightRecord, Error> {
-        let scene = &source.scene;
+    fn light(
+        &mut self,
+        stage: &mut Stage<'_>,
+        source: &Source,
+        light: usize,
+        tracing: &Tracing,
+        place: &str,
+    ) -> Result<LightRecord, Error> {
+        let (scene, plan) = (&source.scene, self.plan);
         let kind = scene.lights[light].shape.kind();
-        let what = |step: &str| format!("{}, light {light} ({}): {step}", scene.name, kind.name());
-
-        let (width, height) = tracing.geometry.depth.size();
-        self.progress.begin(&what("reference"), u64::from(width) * u64::from(height));
-        let truth = match &self.plan.reference {
-            Some(folder) => tracing.stored(folder, source, light, self.progress)?,
-            None => tracing.trace(&scene.lights[light], &scene.textures, self.plan.samples, self.progress),
-        };
-        self.progress.end();
-
-        let cell = Cell { gpu: self.gpu, source, light, truth: &truth, tracing, frames: self.plan.frames };
+        let truth = tracing.truth(plan.reference.as_deref(), source, light, plan.samples, self.progress)?;
+        let cell = Cell { gpu: self.gpu, source, light, truth: &truth, tracing };
         let reference = cell.reference(place, &mut self.pictures)?;
-        self.progress.begin(&what("techniques"), self.plan.choices.len() as u64);
+        let what = format!("{}, light {light} ({}): techniques", scene.name, kind.name());
+        self.progress.begin(&what, plan.choices.len() as u64);
         let mut results = Vec::new();
-        for choice in &self.plan.choices {
-            results.push(cell.run(choice, place, &mut self.pictures));
+        for choice in &plan.choices {
+            results.push(cell.run(stage, choice, plan.frames, place, &mut self.pictures));
             self.progress.at(results.len() as u64);
         }
         self.progress.end();

@@ -6,12 +6,13 @@
 //! technique needs no line here.
 
 mod bench;
-mod bench_table;
 mod cell;
 mod choice;
 mod column;
 mod compare;
 mod error;
+#[cfg(test)]
+mod fixture;
 mod flicker;
 mod given;
 mod html;
@@ -27,6 +28,8 @@ mod round;
 mod shot;
 mod source;
 mod spread;
+mod stage;
+mod status;
 mod sweep;
 mod table;
 mod truth;

@@ -51,6 +51,11 @@ impl Frames {
         self.frame_ms.len() as u32
     }
 
+    /// All of them together.
+    pub(crate) fn spent(&self) -> Duration {
+        Duration::from_secs_f64(self.frame_ms.iter().sum::<f64>() * 1e-3)
+    }
+
     /// Whole frames, milliseconds.
     pub(crate) fn frame(&self) -> Spread {
         Spread::of(self.frame_ms.iter().copied())

@@ -8,6 +8,8 @@ pub trait Progress: Sync {
     fn at(&self, done: u64);
     /// The stage is over.
     fn end(&self);
+    /// Something that a user should know and that ends nothing.
+    fn note(&self, _: &str) {}
 }
 
 /// Nobody watches.

@@ -1,6 +1,7 @@
 //! The data of `report.json`. Names are stable; a change that breaks readers raises [`SCHEMA`].
 
-use crate::{made::Made, round::maybe_six, round::six};
+pub use crate::status::Status;
+use crate::{choice::Choice, error::Error, made::Made, round::maybe_six, round::six};
 use serde::{Serialize, Serializer};
 use std::{collections::BTreeMap, fmt::Display};
 use umbrage_metrics::{Aliasing, Scores};
@@ -74,18 +75,6 @@ pub struct ReferenceRecord {
     pub pictures: BTreeMap<&'static str, String>,
 }
 
-/// How a technique's cell ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Status {
-    /// Rendered and scored.
-    Ok,
-    /// The technique can't do this light; `reason` says so.
-    Unsupported,
-    /// Something went wrong; `reason` says what.
-    Failed,
-}
-
 /// What one technique made of one light.
 #[derive(Clone, Debug, Serialize)]
 pub struct ResultRecord {
@@ -109,6 +98,32 @@ pub struct ResultRecord {
     pub aliasing: Option<AliasingRecord>,
     /// Pictures by kind, relative to the report: `color`, `visibility`, `error`, and `aliasing` for techniques with maps.
     pub pictures: BTreeMap<&'static str, String>,
+}
+
+impl ResultRecord {
+    /// A choice's, with nothing found yet.
+    pub(crate) fn of(choice: &Choice) -> Self {
+        Self {
+            technique: choice.info.id.into(),
+            title: choice.info.title.into(),
+            settings: choice.changed().clone(),
+            light_samples: choice.light_samples,
+            status: Status::Ok,
+            reason: None,
+            scores: None,
+            cost: None,
+            aliasing: None,
+            pictures: BTreeMap::new(),
+        }
+    }
+
+    /// What failed has a reason and nothing else.
+    pub(crate) fn fail(&mut self, error: &Error) {
+        let (status, reason) = Status::of(error);
+        (self.status, self.reason) = (status, Some(reason));
+        (self.scores, self.cost, self.aliasing) = (None, None, None);
+        self.pictures.clear();
+    }
 }
 
 /// Errors over the scored pixels, see [`Scores`].
@@ -240,92 +255,9 @@ pub struct PassRecord {
     pub time_ms: f64,
 }
 
-/// A small report for tests: one scene, one light, a result of each status.
-#[cfg(test)]
-pub(crate) fn fixture() -> Report {
-    let adapter = umbrage::AdapterSummary {
-        name: "llvmpipe".into(),
-        backend: "Vulkan".into(),
-        kind: "software",
-        driver: "Mesa".into(),
-    };
-    let result = |technique: &str, status, reason: Option<&str>| ResultRecord {
-        technique: technique.into(),
-        title: "A technique".into(),
-        settings: BTreeMap::from([("size".into(), "512".into())]),
-        light_samples: None,
-        status,
-        reason: reason.map(String::from),
-        scores: None,
-        cost: None,
-        aliasing: None,
-        pictures: BTreeMap::new(),
-    };
-    let mut good = result("shadow-map", Status::Ok, None);
-    good.scores = Some(ScoresRecord {
-        mae: 0.0123456789,
-        rmse: 0.1,
-        p99: 1.0,
-        ssim: 0.98,
-        flip: 0.02,
-        correct_pct: 98.5,
-        interior_pct: None,
-        leak: 0.01,
-        false_shadow: 0.0023456,
-        vs_hard: Some(1.5),
-        seam: Some(1.125),
-        scored_pixels: 1000,
-        not_finite: 0,
-    });
-    good.cost = Some(CostRecord {
-        frames: 7,
-        passes: vec![PassRecord { pass: "map".into(), time_ms: 1.25 }],
-        gpu_ms: Some(2.5),
-        prepare_ms: 0.125,
-        frame_ms: 9.75,
-        draws: 12,
-        triangles: 3456,
-        bytes: 4 << 20,
-        counts: vec![("edges", 40), ("caps", 2)],
-    });
-    good.aliasing = Some(AliasingRecord { median: 1.5, p95: 3.0, p99: f64::INFINITY });
-    let light = LightRecord {
-        light: 0,
-        kind: "line",
-        soft: true,
-        reference: ReferenceRecord {
-            source: "ray-traced, 256 samples".into(),
-            samples: Some(256),
-            seconds: 1.5,
-            scored_pixels: 1000,
-            hard_mae: Some(0.02),
-            pictures: BTreeMap::new(),
-        },
-        results: vec![
-            good,
-            result("pcf", Status::Unsupported, Some("not for line lights")),
-            result("volume", Status::Failed, Some("the graphics device was lost")),
-        ],
-    };
-    Report {
-        schema: SCHEMA,
-        made: Made::now(vec!["umbrage".into(), "compare".into()], &adapter),
-        scenes: vec![SceneRecord {
-            name: "boxes".into(),
-            source: "boxes.scene.toml".into(),
-            width: 64,
-            height: 48,
-            triangles: 100,
-            instances: 3,
-            notes: vec!["no camera: one was made".into()],
-            lights: vec![light],
-        }],
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::fixture::fixture;
 
     #[test]
     fn names_and_numbers_in_json_are_stable() {

@@ -77,7 +77,7 @@ fn best(column: &Column, results: &[Value]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::fixture;
+    use crate::fixture::fixture;
 
     #[test]
     fn every_result_is_in_the_table_or_below_it() {

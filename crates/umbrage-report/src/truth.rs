@@ -1,11 +1,11 @@
-//! The reference pictures of a scene: traced, or read from a folder.
+//! The reference pictures of a scene: traced, kept from an earlier run, or read from a folder of stored ones.
 
 use crate::{error::Error, progress::Progress, source::Source};
 use std::{path::Path, time::Instant};
 use umbrage_core::{Image, Light, Texture};
 use umbrage_io::stored::StoredReference;
 use umbrage_metrics::discontinuities;
-use umbrage_reference::{Geometry, Options, Tracer};
+use umbrage_reference::{Geometry, Kept, Options, SceneKey, Traced, Tracer};
 
 /// A scene ready to be traced at one size.
 pub struct Tracing {
@@ -13,6 +13,7 @@ pub struct Tracing {
     /// What every pixel shows.
     pub geometry: Geometry,
     edges: Image<bool>,
+    kept: Option<(Kept, SceneKey)>,
 }
 
 /// The truth about one light.
@@ -28,7 +29,7 @@ pub struct Truth {
     pub source: String,
     /// Rays for each scored pixel; `None` for stored pictures.
     pub samples: Option<u32>,
-    /// Time it took, seconds.
+    /// Time that tracing it took, in an earlier run where it was kept, seconds.
     pub seconds: f64,
 }
 
@@ -38,20 +39,48 @@ impl Tracing {
         let tracer = Tracer::new(&source.scene);
         let geometry = tracer.geometry(&source.scene.camera, width, height);
         let edges = discontinuities(&geometry.depth, &geometry.model);
-        Self { tracer, geometry, edges }
+        Self { tracer, geometry, edges, kept: None }
+    }
+
+    /// Keeps what is traced of `source` in `folder`, and traces nothing that is there already.
+    pub fn kept_in(mut self, source: &Source, folder: Option<&Path>) -> Self {
+        self.kept = folder.map(|folder| (Kept::new(folder), SceneKey::new(&source.scene)));
+        self
+    }
+
+    /// The truth about light number `index`: stored in `folder`, else traced with `samples` rays for each pixel.
+    ///
+    /// # Errors
+    /// As [`Tracing::stored`].
+    pub(crate) fn truth(
+        &self,
+        folder: Option<&Path>,
+        source: &Source,
+        index: usize,
+        samples: u32,
+        progress: &dyn Progress,
+    ) -> Result<Truth, Error> {
+        let (scene, light) = (&source.scene, source.light(index)?);
+        let (width, height) = self.geometry.depth.size();
+        let what = format!("{}, light {index} ({}): reference", scene.name, light.shape.kind().name());
+        progress.begin(&what, u64::from(width) * u64::from(height));
+        let truth = match folder {
+            Some(folder) => self.stored(folder, source, index, progress),
+            None => Ok(self.trace(light, &scene.textures, samples, progress)),
+        };
+        progress.end();
+        truth
     }
 
     /// Traces a light with `samples` rays for each pixel.
     pub fn trace(&self, light: &Light, textures: &[Texture], samples: u32, progress: &dyn Progress) -> Truth {
-        let start = Instant::now();
-        let traced = self.visibility(light, textures, samples, progress);
-        let seconds = start.elapsed().as_secs_f64();
+        let Traced { truth, seconds } = self.traced(light, textures, samples, progress);
         let soft = light.shape.kind().is_soft();
         let samples = if soft { samples } else { 1 };
         Truth {
-            mask: without(&traced.scored, &self.edges),
+            mask: without(&truth.scored, &self.edges),
             hard: soft.then(|| self.hard(light, textures, progress)),
-            visibility: traced.visibility,
+            visibility: truth.visibility,
             source: match samples {
                 1 => "ray-traced, one ray to the light's centre".into(),
                 n => format!("ray-traced, {n} samples"),
@@ -95,16 +124,124 @@ impl Tracing {
         samples: u32,
         progress: &dyn Progress,
     ) -> umbrage_reference::Truth {
-        let options = Options { samples, ..Options::default() };
-        self.tracer.visibility(&self.geometry, light, textures, &options, &|done, _| progress.at(done))
+        self.traced(light, textures, samples, progress).truth
     }
 
     fn hard(&self, light: &Light, textures: &[Texture], progress: &dyn Progress) -> Image<f32> {
         self.visibility(light, textures, 1, progress).visibility
+    }
+
+    /// What was kept, or else is traced and kept. Neither a damaged file nor a full disk is worth ending a run.
+    fn traced(&self, light: &Light, textures: &[Texture], samples: u32, progress: &dyn Progress) -> Traced {
+        let options = Options { samples, ..Options::default() };
+        let size = self.geometry.depth.size();
+        let Some((kept, scene)) = &self.kept else { return self.trace_anew(light, textures, &options, progress) };
+        let key = scene.of(light, size, &options);
+        let file = kept.path(key);
+        match kept.read(key, size) {
+            Ok(Some(traced)) => return traced,
+            Ok(None) => {}
+            Err(error) => progress.note(&format!("{}: {error}; traced anew", file.display())),
+        }
+        let traced = self.trace_anew(light, textures, &options, progress);
+        if let Err(error) = kept.write(key, &traced) {
+            progress.note(&format!("{}: can't be kept ({error})", file.display()));
+        }
+        traced
+    }
+
+    fn trace_anew(&self, light: &Light, textures: &[Texture], options: &Options, progress: &dyn Progress) -> Traced {
+        let start = Instant::now();
+        let truth = self.tracer.visibility(&self.geometry, light, textures, options, &|done, _| progress.at(done));
+        Traced { truth, seconds: start.elapsed().as_secs_f64() }
+    }
+}
+
+/// The size of a light's picture: that of the stored reference in `folder`, or the one asked for.
+///
+/// # Errors
+/// A reference that can't be read.
+pub(crate) fn size_of(
+    asked: (u32, u32),
+    folder: Option<&Path>,
+    source: &Source,
+    light: usize,
+) -> Result<(u32, u32), Error> {
+    match folder {
+        None => Ok(asked),
+        Some(folder) => Ok(StoredReference::open(folder, &source.stem(), light)?.visibility.size()),
     }
 }
 
 fn without(scored: &Image<bool>, edges: &Image<bool>) -> Image<bool> {
     let data = scored.data.iter().zip(&edges.data).map(|(scored, edge)| *scored && !edge).collect();
     Image { width: scored.width, height: scored.height, data }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::{
+        fs,
+        sync::{
+            Mutex,
+            atomic::{AtomicU64, Ordering},
+        },
+    };
+
+    /// Counts what is traced, and keeps notes.
+    #[derive(Default)]
+    struct Watch {
+        traced: AtomicU64,
+        notes: Mutex<Vec<String>>,
+    }
+
+    impl Progress for Watch {
+        fn begin(&self, _: &str, _: u64) {}
+        fn at(&self, _: u64) {
+            self.traced.fetch_add(1, Ordering::Relaxed);
+        }
+        fn end(&self) {}
+        fn note(&self, text: &str) {
+            self.notes.lock().unwrap().push(text.into());
+        }
+    }
+
+    /// The truth about the soft light of `contact`, whether tracing was needed, and what was noted.
+    fn truth(folder: &Path, change: impl Fn(&mut Source)) -> (Truth, bool, Vec<String>) {
+        let mut source = Source::open("contact:0.2").unwrap();
+        change(&mut source);
+        let watch = Watch::default();
+        let tracing = Tracing::new(&source, 24, 18).kept_in(&source, Some(folder));
+        let truth = tracing.truth(None, &source, 1, 4, &watch).unwrap();
+        (truth, watch.traced.into_inner() > 0, watch.notes.into_inner().unwrap())
+    }
+
+    #[test]
+    fn truth_is_traced_once_and_anew_where_the_scene_or_the_file_changed() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = place.path().join("truth");
+        let (first, traced, _) = truth(&folder, |_| ());
+        assert!(traced && first.hard.is_some());
+        // The soft shadow and the hard one.
+        let files: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+        assert_eq!(files.len(), 2, "{files:?}");
+
+        let (again, traced, notes) = truth(&folder, |_| ());
+        assert!(!traced && notes.is_empty(), "{notes:?}");
+        assert_eq!((&again.visibility, &again.hard, &again.mask), (&first.visibility, &first.hard, &first.mask));
+        assert_eq!((again.seconds, again.source), (first.seconds, first.source));
+
+        let (_, traced, notes) = truth(&folder, |source| source.scene.meshes[0].positions[0].x += 0.01);
+        assert!(traced && notes.is_empty(), "another scene has the same truth");
+
+        for file in &files {
+            let bytes = fs::read(file).unwrap();
+            fs::write(file, &bytes[..bytes.len() / 2]).unwrap();
+        }
+        let (mended, traced, notes) = truth(&folder, |_| ());
+        assert!(traced && notes.len() == 2 && notes[0].contains("damaged"), "{notes:?}");
+        assert_eq!(mended.visibility, first.visibility);
+        assert!(!truth(&folder, |_| ()).1, "the damaged file was not replaced");
+    }
 }

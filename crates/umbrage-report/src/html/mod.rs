@@ -110,7 +110,7 @@ fn json_in_html(data: &impl Serialize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{record::fixture, sweep};
+    use crate::{fixture::fixture, sweep};
 
     fn data_of(page: &str) -> serde_json::Value {
         let start = page.find("id=\"data\">").expect("a data block") + "id=\"data\">".len();
@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn the_page_of_a_sweep_holds_its_data_plots_and_measures() {
-        let report = sweep::record::fixture();
+        let report = sweep::fixture::fixture();
         let plots = sweep::plot::all(&report);
         let page = sweep_page(&report, &BTreeMap::new(), &plots);
         assert!(!page.contains("{{") && !page.contains("<dialog"), "a placeholder was left, or a part of another page");

@@ -80,7 +80,7 @@ mod tests {
     use super::*;
     use crate::sweep::{
         canvas::{left_open, numbers},
-        record::fixture,
+        fixture::fixture,
     };
 
     fn asked() -> Vec<(String, String)> {

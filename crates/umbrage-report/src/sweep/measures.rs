@@ -79,7 +79,7 @@ pub(crate) fn errors(scores: &ScoresRecord) -> BTreeMap<&'static str, f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::fixture;
+    use crate::fixture::fixture;
 
     #[test]
     fn errors_are_those_of_the_scores_and_shrink() {

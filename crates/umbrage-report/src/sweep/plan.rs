@@ -1,61 +1,57 @@
 //! Which settings of which technique one kind of light is looked at under.
 
 use crate::{
-    choice::{Choice, LIGHT_SAMPLES},
+    choice::Choice,
     error::Error,
-    sweep::{rule, vary::Vary},
+    sweep::{
+        curve::{Curve, changed},
+        rule,
+        vary::Vary,
+    },
 };
 
 /// Settings, each once, and the curves through them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Plan {
-    pub choices: Vec<Choice>,
+    pub settings: Vec<Setting>,
     pub curves: Vec<Curve>,
 }
 
-/// Settings that differ in one parameter, in its order.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Curve {
-    pub technique: &'static str,
-    pub parameter: String,
-    /// [`Choice::label`] of each.
-    pub labels: Vec<String>,
-    /// The parameter's value in each; none where it is a word.
-    pub values: Vec<f64>,
+/// A choice to look at.
+#[derive(Clone, Debug)]
+pub(crate) struct Setting {
+    pub choice: Choice,
+    /// Nobody asked for it: it is left out where the adapter can't do it.
+    pub by_rule: bool,
 }
 
 impl Plan {
-    /// What `vary` says of the technique of each base; where it says nothing, the built-in rule without what `refused`
-    /// finds impossible here.
+    /// What `vary` says of the technique of each base; where it says nothing, the built-in rule.
     ///
     /// # Errors
     /// Names and values of `vary` that are not known, or not of a technique among the bases.
-    pub(crate) fn new(
-        bases: &[Choice],
-        vary: &[Vary],
-        soft: bool,
-        refused: &dyn Fn(&Choice) -> bool,
-    ) -> Result<Self, Error> {
+    pub(crate) fn new(bases: &[Choice], vary: &[Vary], soft: bool) -> Result<Self, Error> {
         let mut plan = Self::default();
         for base in bases {
             let own: Vec<&Vary> = vary.iter().filter(|v| v.technique == base.info.id).collect();
             if own.is_empty() {
-                let (mut choices, curves) = rule::around(base, soft)?;
-                choices.retain(|choice| choice.label() == base.label() || !refused(choice));
-                plan.add(choices, curves);
+                let (choices, curves) = rule::around(base, soft)?;
+                let setting = |choice: Choice| Setting { by_rule: choice.label() != base.label(), choice };
+                plan.add(choices.into_iter().map(setting), curves);
             }
             for vary in own {
                 let (choices, curves) = product(base, vary)?;
-                plan.add(choices, curves);
+                plan.add(choices.into_iter().map(|choice| Setting { choice, by_rule: false }), curves);
             }
         }
         Ok(plan)
     }
 
-    fn add(&mut self, choices: Vec<Choice>, curves: Vec<Curve>) {
-        for choice in choices {
-            if !self.choices.iter().any(|c| c.label() == choice.label()) {
-                self.choices.push(choice);
+    fn add(&mut self, settings: impl Iterator<Item = Setting>, curves: Vec<Curve>) {
+        for setting in settings {
+            match self.settings.iter_mut().find(|own| own.choice.label() == setting.choice.label()) {
+                Some(own) => own.by_rule &= setting.by_rule,
+                None => self.settings.push(setting),
             }
         }
         self.curves.extend(curves);
@@ -95,14 +91,6 @@ fn product(base: &Choice, vary: &Vary) -> Result<(Vec<Choice>, Vec<Curve>), Erro
     Ok((choices, curves))
 }
 
-/// The base with `set` beside or in place of what it has set.
-pub(crate) fn changed(base: &Choice, set: &[(String, String)]) -> Result<Choice, Error> {
-    let own = base.changed().iter().map(|(name, value)| (name.clone(), value.clone()));
-    let points = base.light_samples.map(|n| (LIGHT_SAMPLES.to_string(), n.to_string()));
-    let all: Vec<_> = own.chain(points).chain(set.iter().cloned()).collect();
-    Choice::new(base.info.id, &all)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,11 +99,11 @@ mod tests {
         let bases = Choice::list(&bases.split(' ').map(String::from).collect::<Vec<_>>(), &[])?;
         let vary = vary.iter().map(|v| Vary::parse(v)).collect::<Result<Vec<_>, _>>()?;
         check_vary(&bases, &vary)?;
-        Plan::new(&bases, &vary, false, &|_| false)
+        Plan::new(&bases, &vary, false)
     }
 
     fn labels(plan: &Plan) -> Vec<String> {
-        plan.choices.iter().map(Choice::label).collect()
+        plan.settings.iter().map(|setting| setting.choice.label()).collect()
     }
 
     #[test]
@@ -142,12 +130,14 @@ mod tests {
     }
 
     #[test]
-    fn what_the_adapter_refuses_is_left_out_of_the_rule_alone() {
+    fn what_nobody_asked_for_is_marked() {
         let bases = [Choice::new("shadow-map", &[]).unwrap()];
-        let refuse = |_: &Choice| true;
-        assert_eq!(labels(&Plan::new(&bases, &[], false, &refuse).unwrap()), ["shadow-map"]);
-        let vary = [Vary::parse("shadow-map:size=64|32").unwrap()];
-        assert_eq!(Plan::new(&bases, &vary, false, &refuse).unwrap().choices.len(), 2);
+        let by_rule = |vary: &[Vary]| -> Vec<bool> {
+            Plan::new(&bases, vary, false).unwrap().settings.iter().map(|setting| setting.by_rule).collect()
+        };
+        let rule = by_rule(&[]);
+        assert!(rule.len() > 2 && !rule[0] && rule[1..].iter().all(|by_rule| *by_rule), "{rule:?}");
+        assert_eq!(by_rule(&[Vary::parse("shadow-map:size=64|32").unwrap()]), [false, false]);
     }
 
     #[test]

@@ -152,7 +152,7 @@ mod tests {
     use super::*;
     use crate::sweep::{
         canvas::{left_open, numbers},
-        record::fixture,
+        fixture::fixture,
     };
 
     #[test]

@@ -11,7 +11,7 @@ use crate::{
     choice::{Choice, LIGHT_SAMPLES},
     error::Error,
     round::rounded,
-    sweep::plan::{Curve, changed},
+    sweep::curve::{Curve, changed},
 };
 use umbrage::{ParamKind, Registry, Value};
 

@@ -86,7 +86,7 @@ fn table(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::record::fixture;
+    use crate::sweep::fixture::fixture;
 
     /// The cells of the row of a technique in the table under a heading.
     fn row(text: &str, heading: &str, technique: &str) -> Vec<String> {

@@ -1,201 +1,207 @@
-//! Times of many settings on one light: measured by `bench`, as many at once as fit into memory.
+//! Times of many settings on one light: as many as fit into memory take turns frame by frame, so that a drift of the machine
+//! hits all of them alike.
 
 use crate::{
-    bench::{Bench, BenchCost, BenchResult},
+    bench::{baseline::Maps, record::BenchCost},
+    cell::TIME_LIMIT,
     choice::Choice,
     error::Error,
-    motion::Moving,
-    progress::Progress,
-    record::Status,
-    source::Source,
+    measure::Frames,
     spread::Spread,
+    stage::{Actor, Stage},
     sweep::record::{Clock, Yardsticks},
 };
-use umbrage::Gpu;
+use umbrage::{Gpu, Stats, baseline};
+use umbrage_core::Camera;
 
 /// GPU memory of the settings that take turns: little enough for any adapter. One that needs more is measured alone with the yardsticks.
-const BATCH_BYTES: u64 = 1 << 30;
+const BATCH_BYTES: u64 = 1 << 29;
 
-/// Targets of a renderer for each pixel, what it holds of a triangle, and its pipelines, roughly.
-const PIXEL_BYTES: u64 = 48;
-const TRIANGLE_BYTES: u64 = 256;
+/// The pipelines of a setting, roughly.
 const PIPELINE_BYTES: u64 = 8 << 20;
 
 /// Map size of the bare minimum that others are set against.
 const USUAL_MAP: f64 = 1024.0;
 
-/// One light at one size.
-pub(crate) struct Timing<'a> {
-    pub gpu: &'a Gpu,
-    pub source: &'a Source,
-    pub light: usize,
-    pub size: (u32, u32),
-    pub frames: u32,
+/// The size of the bare minimum's map: of those of the choices the one nearest to the usual.
+pub(crate) fn bare_size<'a>(choices: impl Iterator<Item = &'a Choice>) -> u32 {
+    let distance = |size: u32| (f64::from(size) / USUAL_MAP).ln().abs();
+    let sizes = choices.map(|choice| Maps::of(choice).size);
+    sizes.min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(Maps::USUAL.size)
 }
 
 /// What a setting took.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Timed {
-    pub status: Status,
-    pub reason: Option<String>,
-    pub cost: Option<BenchCost>,
+    pub frames: u32,
+    pub cost: Result<BenchCost, Error>,
     pub over_floor_ms: Option<f64>,
 }
 
-impl Timing<'_> {
-    /// Times `choices`, each with the memory that it holds, in their order. What fails is in its place.
+/// One light whose settings are timed.
+pub(crate) struct Timing<'a> {
+    camera: &'a Camera,
+    light: usize,
+    frames: u32,
+    bare_size: u32,
+    floor: Runner,
+    bare: Runner,
+    /// Those that take turns next, by their numbers, and the memory that they hold.
+    waiting: Vec<(usize, Runner)>,
+    held: u64,
+    batches: Vec<Batch>,
+    timed: Vec<(usize, Timed)>,
+}
+
+/// Costs of the yardsticks in one batch, milliseconds.
+#[derive(Clone, Copy, Debug)]
+struct Batch {
+    clock: Clock,
+    floor_ms: Option<f64>,
+    bare_ms: Option<f64>,
+}
+
+impl<'a> Timing<'a> {
+    /// For up to `frames` of each setting, with a bare minimum of this size.
     ///
     /// # Errors
-    /// As [`Bench::run`].
-    pub(crate) fn run(
-        &self,
-        choices: &[(Choice, u64)],
-        progress: &dyn Progress,
-    ) -> Result<(Vec<Timed>, Yardsticks), Error> {
-        let (width, height) = self.size;
-        let pixels = u64::from(width) * u64::from(height);
-        let own = PIPELINE_BYTES + PIXEL_BYTES * pixels + TRIANGLE_BYTES * self.source.scene.triangle_count() as u64;
-        let bytes: Vec<u64> = choices.iter().map(|(_, bytes)| bytes + own).collect();
-        let mut baselines = Vec::new();
-        let mut timed: Vec<(usize, Timed)> = Vec::new();
-        for batch in batches(&bytes, BATCH_BYTES) {
-            let asked = batch.iter().map(|&number| choices[number].0.clone()).collect();
-            let mut results = self.batch(asked, progress)?;
-            let techniques = results.split_off(results.len() - batch.len());
-            let clock = clock(&results);
-            let floor = results.first().and_then(|floor| cost_ms(floor, clock));
-            timed.extend(batch.into_iter().zip(techniques.into_iter().map(|result| {
-                let over_floor_ms = cost_ms(&result, clock).zip(floor).map(|(cost, floor)| cost - floor);
-                let BenchResult { status, reason, cost, .. } = result;
-                Timed { status, reason, cost, over_floor_ms }
-            })));
-            baselines.push(results);
+    /// Yardsticks that can't be made here.
+    pub(crate) fn new(gpu: &Gpu, camera: &'a Camera, light: usize, frames: u32, bare_size: u32) -> Result<Self, Error> {
+        let floor = Runner::new(Actor::new(gpu, baseline::floor(gpu)));
+        let bare = Runner::new(Actor::new(gpu, baseline::bare_minimum(gpu, bare_size, 1)?));
+        let (waiting, batches, timed) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(Self { camera, light, frames, bare_size, floor, bare, waiting, held: 0, batches, timed })
+    }
+
+    /// A setting that has drawn already and holds so many bytes.
+    pub(crate) fn add(&mut self, stage: &mut Stage<'_>, number: usize, actor: Actor, bytes: u64) {
+        let bytes = bytes + PIPELINE_BYTES;
+        if self.held + bytes > BATCH_BYTES {
+            self.take_turns(stage);
         }
-        timed.sort_by_key(|(number, _)| *number);
-        Ok((timed.into_iter().map(|(_, timed)| timed).collect(), yardsticks(&baselines)))
+        self.waiting.push((number, Runner::new(actor)));
+        self.held += bytes;
     }
 
-    /// The floor, the bare minimums, and `choices`.
-    fn batch(&self, choices: Vec<Choice>, progress: &dyn Progress) -> Result<Vec<BenchResult>, Error> {
-        let bench = Bench {
-            scenes: vec![(self.source.clone(), vec![self.light])],
-            choices,
-            size: self.size,
-            frames: self.frames,
-            moving: Moving::None,
-            path: None,
-            samples: 1,
-            together: false,
-            overlay: false,
-            command: Vec::new(),
-        };
-        let report = bench.run(self.gpu, progress)?;
-        Ok(report.scenes.into_iter().flat_map(|s| s.lights).flat_map(|l| l.results).collect())
+    /// What each setting took, by its number, and what they are set against.
+    pub(crate) fn finish(mut self, stage: &mut Stage<'_>) -> (Vec<(usize, Timed)>, Yardsticks) {
+        self.take_turns(stage);
+        (self.timed, yardsticks(&self.batches, self.bare_size))
     }
-}
 
-/// Numbers of the settings that go together. Small ones come first: most of all techniques then take turns with each other, and what is
-/// apart is what is larger.
-fn batches(bytes: &[u64], limit: u64) -> Vec<Vec<usize>> {
-    let mut order: Vec<usize> = (0..bytes.len()).collect();
-    order.sort_by_key(|&number| bytes[number]);
-    let mut batches: Vec<Vec<usize>> = Vec::new();
-    let mut held = 0u64;
-    for number in order {
-        let more = held.saturating_add(bytes[number]);
-        match batches.last_mut() {
-            Some(batch) if more <= limit => {
-                batch.push(number);
-                held = more;
-            }
-            _ => {
-                batches.push(vec![number]);
-                held = bytes[number];
+    fn take_turns(&mut self, stage: &mut Stage<'_>) {
+        if self.waiting.is_empty() {
+            return;
+        }
+        let (floor, bare) = (&mut self.floor, &mut self.bare);
+        floor.frames = Frames::default();
+        bare.frames = Frames::default();
+        // Nobody has seen the yardsticks draw before.
+        if self.batches.is_empty() {
+            floor.warm_up(stage, self.light, self.camera);
+            bare.warm_up(stage, self.light, self.camera);
+        }
+        for _ in 0..self.frames {
+            let settings = self.waiting.iter_mut().map(|(_, runner)| runner);
+            for runner in [&mut *floor, &mut *bare].into_iter().chain(settings) {
+                runner.turn(stage, self.light, self.camera);
             }
         }
+        let (floor, bare) = (floor.cost(), bare.cost());
+        let timed = floor.as_ref().is_some_and(|cost| cost.added_ms().is_some());
+        let clock = if timed { Clock::Gpu } else { Clock::Frame };
+        let floor_ms = floor.and_then(|cost| cost_ms(&cost, clock));
+        self.batches.push(Batch { clock, floor_ms, bare_ms: bare.and_then(|cost| cost_ms(&cost, clock)) });
+        let timed = self.waiting.drain(..).map(|(number, runner)| (number, runner.timed(clock, floor_ms)));
+        self.timed.extend(timed);
+        self.held = 0;
     }
-    batches
 }
 
-/// The floor knows whether the adapter keeps time.
-fn clock(baselines: &[BenchResult]) -> Clock {
-    let timed = baselines.first().and_then(|floor| floor.cost.as_ref()?.added_ms());
-    if timed.is_some() { Clock::Gpu } else { Clock::Frame }
+/// A technique that takes turns; the first error ends its part.
+struct Runner {
+    actor: Result<Actor, Error>,
+    frames: Frames,
+    stats: Stats,
+    counts: Vec<(&'static str, u64)>,
 }
 
-fn cost_ms(result: &BenchResult, clock: Clock) -> Option<f64> {
-    let cost = result.cost.as_ref()?;
+impl Runner {
+    fn new(actor: Actor) -> Self {
+        Self { actor: Ok(actor), frames: Frames::default(), stats: Stats::default(), counts: Vec::new() }
+    }
+
+    /// A frame that does all of the work, unless its frames have taken the time that a setting may take.
+    fn turn(&mut self, stage: &mut Stage<'_>, light: usize, camera: &Camera) {
+        if self.frames.spent() >= TIME_LIMIT {
+            return;
+        }
+        let away = || Err(Error::Name("its turn has not ended".into()));
+        let Ok(actor) = std::mem::replace(&mut self.actor, away()) else { return };
+        let frames = &mut self.frames;
+        let acted = stage.act(light, actor, |renderer| {
+            renderer.forget();
+            frames.add(renderer, camera)?;
+            Ok((renderer.stats(0), renderer.counts(0)))
+        });
+        self.actor = acted.map(|(actor, drawn)| {
+            (self.stats, self.counts) = drawn;
+            actor
+        });
+    }
+
+    /// Frames that do not count.
+    fn warm_up(&mut self, stage: &mut Stage<'_>, light: usize, camera: &Camera) {
+        self.turn(stage, light, camera);
+        self.turn(stage, light, camera);
+        self.frames = Frames::default();
+    }
+
+    fn cost(&self) -> Option<BenchCost> {
+        self.actor.as_ref().ok().map(|_| BenchCost::new(&self.frames, &[self.stats], self.counts.clone()))
+    }
+
+    fn timed(self, clock: Clock, floor_ms: Option<f64>) -> Timed {
+        let Self { actor, frames, stats, counts } = self;
+        let cost = actor.map(|_| BenchCost::new(&frames, &[stats], counts));
+        let own_ms = cost.as_ref().ok().and_then(|cost| cost_ms(cost, clock));
+        Timed { frames: frames.count(), over_floor_ms: own_ms.zip(floor_ms).map(|(own, floor)| own - floor), cost }
+    }
+}
+
+fn cost_ms(cost: &BenchCost, clock: Clock) -> Option<f64> {
     match clock {
         Clock::Gpu => cost.added_ms(),
         Clock::Frame => Some(cost.frame_ms.median),
     }
 }
 
-/// From the baselines of each batch: the floor first, then bare minimums.
-fn yardsticks(batches: &[Vec<BenchResult>]) -> Yardsticks {
-    let Some(clock) = batches.first().map(|batch| clock(batch)) else { return Yardsticks::default() };
+/// Spreads over the batches.
+fn yardsticks(batches: &[Batch], bare_size: u32) -> Yardsticks {
+    let Some(Batch { clock, .. }) = batches.first().copied() else { return Yardsticks::default() };
     let spread = |values: Vec<f64>| (!values.is_empty()).then(|| Spread::of(values));
-    let mut floors = Vec::new();
-    let mut bares: Vec<(u32, f64)> = Vec::new();
-    for batch in batches {
-        let mut costs = batch.iter().filter_map(|result| Some((result, cost_ms(result, clock)?)));
-        let Some((_, floor)) = costs.next() else { continue };
-        floors.push(floor);
-        // Those of one map: the others are for techniques with splits.
-        let costs = costs.filter(|(result, _)| !result.settings.contains_key("splits"));
-        bares.extend(costs.filter_map(|(result, ms)| Some((result.settings.get("size")?.parse().ok()?, ms - floor))));
-    }
-    let distance = |size: u32| (f64::from(size) / USUAL_MAP).ln().abs();
-    let size = bares.iter().map(|(size, _)| *size).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-    let of_size = bares.iter().filter(|(s, _)| Some(*s) == size).map(|(_, ms)| *ms).collect();
+    let bares: Vec<f64> = batches.iter().filter_map(|batch| Some(batch.bare_ms? - batch.floor_ms?)).collect();
     Yardsticks {
         clock,
-        floor_ms: spread(floors),
-        bare_minimum_size: size,
-        bare_minimum_over_floor_ms: spread(of_size).filter(|ms| ms.median > 0.0),
+        floor_ms: spread(batches.iter().filter_map(|batch| batch.floor_ms).collect()),
+        bare_minimum_size: (!bares.is_empty()).then_some(bare_size),
+        bare_minimum_over_floor_ms: spread(bares).filter(|ms| ms.median > 0.0),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::record::cost;
-    use std::collections::BTreeMap;
+    use crate::sweep::fixture::cost;
 
-    #[test]
-    fn batches_hold_no_more_than_the_limit_unless_alone() {
-        assert_eq!(batches(&[3, 3, 4, 1, 20, 5, 5], 10), [vec![3, 0, 1], vec![2, 5], vec![6], vec![4]]);
-        assert!(batches(&[], 10).is_empty());
-    }
-
-    /// A baseline that takes `gpu_ms` and half a millisecond to prepare, in a frame of 20.
-    fn baseline(size: Option<u32>, gpu_ms: Option<f64>) -> BenchResult {
-        let frame_ms = 20.0 + f64::from(size.unwrap_or_default()) / 1000.0;
-        BenchResult {
-            technique: "baseline".into(),
-            settings: size.map(|s| ("size".to_string(), s.to_string())).into_iter().collect::<BTreeMap<_, _>>(),
-            light_samples: None,
-            status: Status::Ok,
-            reason: None,
-            cost: Some(cost(gpu_ms, 0.5, frame_ms)),
-            vs_floor: None,
-            vs_bare_minimum: None,
-            flicker: None,
-            flicker_ratio: None,
-        }
+    fn batch(clock: Clock, floor_ms: f64, bare_ms: f64) -> Batch {
+        Batch { clock, floor_ms: Some(floor_ms), bare_ms: Some(bare_ms) }
     }
 
     #[test]
-    fn yardsticks_are_medians_and_the_usual_map_counts() {
-        let batch = |floor, bare| {
-            vec![
-                baseline(None, Some(floor)),
-                baseline(Some(512), Some(9.0)),
-                baseline(Some(1024), Some(bare)),
-                baseline(Some(4096), Some(99.0)),
-            ]
-        };
-        let found = yardsticks(&[batch(1.0, 4.0), batch(3.0, 6.0), batch(1.5, 9.0)]);
+    fn yardsticks_are_medians_over_the_batches() {
+        let found =
+            yardsticks(&[batch(Clock::Gpu, 1.5, 4.5), batch(Clock::Gpu, 3.5, 6.5), batch(Clock::Gpu, 2.0, 9.5)], 1024);
         let wanted = Yardsticks {
             clock: Clock::Gpu,
             floor_ms: Some(Spread { median: 2.0, min: 1.5, max: 3.5 }),
@@ -203,20 +209,30 @@ mod tests {
             bare_minimum_over_floor_ms: Some(Spread { median: 3.0, min: 3.0, max: 7.5 }),
         };
         assert_eq!(found, wanted);
-        assert_eq!(yardsticks(&[]), Yardsticks::default());
+        assert_eq!(yardsticks(&[], 1024), Yardsticks::default());
     }
 
     #[test]
     fn frames_stand_in_where_the_adapter_keeps_no_time() {
-        let found = yardsticks(&[vec![baseline(None, None), baseline(Some(500), None), baseline(Some(2000), None)]]);
-        assert_eq!((found.clock, found.bare_minimum_size), (Clock::Frame, Some(2000)));
-        assert_eq!(found.floor_ms, Some(Spread::of([20.0])));
-        assert!((found.bare_minimum_over_floor_ms.unwrap().median - 2.0).abs() < 1e-9);
+        let (timed, untimed) = (cost(Some(3.0), 0.5, 20.0), cost(None, 0.5, 20.0));
+        assert_eq!((cost_ms(&timed, Clock::Gpu), cost_ms(&timed, Clock::Frame)), (Some(3.5), Some(20.0)));
+        assert_eq!((cost_ms(&untimed, Clock::Gpu), cost_ms(&untimed, Clock::Frame)), (None, Some(20.0)));
     }
 
     #[test]
     fn a_bare_minimum_below_the_floor_is_none() {
-        let found = yardsticks(&[vec![baseline(None, Some(2.0)), baseline(Some(1024), Some(1.9))]]);
+        let found = yardsticks(&[batch(Clock::Gpu, 2.0, 1.9)], 1024);
         assert_eq!((found.bare_minimum_size, found.bare_minimum_over_floor_ms), (Some(1024), None));
+    }
+
+    #[test]
+    fn the_bare_minimum_has_the_usual_size_or_the_nearest() {
+        let size = |labels: &[&str]| {
+            let choices: Vec<_> = labels.iter().map(|label| Choice::parse(label, &[]).unwrap()).collect();
+            bare_size(choices.iter())
+        };
+        assert_eq!(size(&["shadow-map:size=500", "pcf:size=2000", "pcf:size=64"]), 2000);
+        assert_eq!(size(&["shadow-map:size=64", "none"]), 1024);
+        assert_eq!(size(&[]), 1024);
     }
 }

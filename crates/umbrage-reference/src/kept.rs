@@ -1,0 +1,292 @@
+//! Truth that is kept on disk: the same scene, light, camera, size and rays are traced once.
+
+use crate::{Options, Tracer, Truth};
+use glam::{DMat3, DVec2, DVec3};
+use std::{
+    fmt::{self, Write},
+    fs, io,
+    path::{Path, PathBuf},
+    sync::{
+        OnceLock,
+        atomic::{AtomicU32, Ordering},
+    },
+};
+use umbrage_core::{Image, Light, LightShape, Scene, scenes};
+
+/// The first bytes of a file, with the version of its form.
+const MAGIC: &[u8; 16] = b"umbrage truth 1\n";
+
+/// Width, height, rays and seconds, after the magic.
+const HEAD: usize = 16 + 4 + 4 + 8 + 8;
+
+/// A visibility takes four bytes, and whether the pixel is scored one.
+const PIXEL: usize = 5;
+
+/// The check over all before it, at the end.
+const CHECK: usize = 16;
+
+/// A folder of truth.
+#[derive(Clone, Debug)]
+pub struct Kept {
+    folder: PathBuf,
+}
+
+/// What of a scene determines the truth about any light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SceneKey(Fnv);
+
+/// What determines one truth: the name of its file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Key(u128);
+
+/// A truth, and the time that tracing it took.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Traced {
+    /// The truth.
+    pub truth: Truth,
+    /// Seconds.
+    pub seconds: f64,
+}
+
+impl SceneKey {
+    /// Of the scene's geometry, materials and camera. Its name, its ambient light and its lights make no difference.
+    pub fn new(scene: &Scene) -> Self {
+        let mut hash = Fnv::default();
+        hash.add(&fingerprint().to_le_bytes());
+        // The debug text names every number to the last bit.
+        hash.text(format_args!("{:?} {:?} {:?}", scene.camera, scene.instances, scene.materials));
+        hash.text(format_args!("{:?} {:?} {:?}", scene.meshes, scene.rigs, scene.textures));
+        Self(hash)
+    }
+
+    /// Of a light in a picture of this size.
+    pub fn of(&self, light: &Light, size: (u32, u32), options: &Options) -> Key {
+        let mut hash = self.0;
+        let samples = if light.shape.kind().is_soft() { options.samples } else { 1 };
+        // Light is the same, whatever its colour and strength.
+        hash.text(format_args!("{:?} {} ", light.shape, light.casts));
+        hash.text(format_args!("{size:?} {samples} {}", options.same_points));
+        Key(hash.0)
+    }
+}
+
+impl Kept {
+    /// In this folder, which is made when something is kept.
+    pub fn new(folder: &Path) -> Self {
+        Self { folder: folder.to_path_buf() }
+    }
+
+    /// Where a truth is, or would be.
+    pub fn path(&self, key: Key) -> PathBuf {
+        self.folder.join(format!("{:032x}.truth", key.0))
+    }
+
+    /// What is kept; `None` where nothing is.
+    ///
+    /// # Errors
+    /// A file that can't be read or is not as it was written.
+    pub fn read(&self, key: Key, size: (u32, u32)) -> io::Result<Option<Traced>> {
+        match fs::read(self.path(key)) {
+            Ok(bytes) => decoded(&bytes, size).map(Some).ok_or_else(|| {
+                io::Error::new(io::ErrorKind::InvalidData, "the file is damaged, or of another version or picture")
+            }),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Keeps a truth: whole, or not at all.
+    ///
+    /// # Errors
+    /// A folder that can't be written to.
+    pub fn write(&self, key: Key, traced: &Traced) -> io::Result<()> {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        fs::create_dir_all(&self.folder)?;
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let beside = self.folder.join(format!(".{:032x}.{}.{number}", key.0, std::process::id()));
+        let written = fs::write(&beside, encoded(traced)).and_then(|()| fs::rename(&beside, self.path(key)));
+        if written.is_err() {
+            // What could not be written whole is of no use; that it may stay changes nothing.
+            let _ = fs::remove_file(&beside);
+        }
+        written
+    }
+}
+
+/// What the tracer makes of a small scene under every kind of light that it samples: a tracer that traces otherwise finds nothing of
+/// what was kept.
+fn fingerprint() -> u128 {
+    static FOUND: OnceLock<u128> = OnceLock::new();
+    *FOUND.get_or_init(|| {
+        let mut hash = Fnv::default();
+        let Some(entry) = scenes::find("contact") else { return hash.0 };
+        let scene = (entry.build)(0.2);
+        let tracer = Tracer::new(&scene);
+        let geometry = tracer.geometry(&scene.camera, 24, 18);
+        hash.text(format_args!("{:?} {:?}", geometry.depth, geometry.normal));
+        for light in scene.lights.iter().take(1).flat_map(probes) {
+            let options = Options { samples: 5, ..Options::default() };
+            let truth = tracer.visibility(&geometry, &light, &scene.textures, &options, &|_, _| ());
+            hash.text(format_args!("{:?} {:?}", truth.visibility.data, truth.scored.data));
+        }
+        hash.0
+    })
+}
+
+/// A light of every kind where `light` is.
+fn probes(light: &Light) -> [Light; 7] {
+    let position = light.shape.center().truncate();
+    let (direction, up) = (DVec3::NEG_Y, DVec3::Z);
+    let shapes = [
+        LightShape::Point { position },
+        LightShape::Directional { direction: DVec3::new(0.36, -0.8, 0.48), angle_deg: 4.0 },
+        LightShape::Sphere { position, radius: 0.4 },
+        LightShape::Ellipsoid { position, radii: DVec3::new(0.6, 0.2, 0.3), rotation: DMat3::from_rotation_z(0.5) },
+        LightShape::Disc { position, direction, radius: 0.4 },
+        LightShape::Rect { position, direction, up, size: DVec2::new(0.8, 0.5), texture: None },
+        LightShape::Line { from: position - 0.4 * DVec3::X, to: position + 0.4 * DVec3::X },
+    ];
+    shapes.map(|shape| Light { shape, ..light.clone() })
+}
+
+fn encoded(Traced { truth, seconds }: &Traced) -> Vec<u8> {
+    let Image { width, height, data } = &truth.visibility;
+    let mut bytes = Vec::with_capacity(HEAD + PIXEL * data.len() + CHECK);
+    bytes.extend(MAGIC);
+    bytes.extend(width.to_le_bytes());
+    bytes.extend(height.to_le_bytes());
+    bytes.extend(truth.rays.to_le_bytes());
+    bytes.extend(seconds.to_le_bytes());
+    bytes.extend(data.iter().flat_map(|v| v.to_le_bytes()));
+    bytes.extend(truth.scored.data.iter().map(|scored| u8::from(*scored)));
+    let check = Fnv::of(&bytes);
+    bytes.extend(check.to_le_bytes());
+    bytes
+}
+
+/// The other way; `None` for bytes that no truth of this size gives.
+fn decoded(bytes: &[u8], (width, height): (u32, u32)) -> Option<Traced> {
+    let pixels = usize::try_from(u64::from(width) * u64::from(height)).ok()?;
+    if bytes.len() != HEAD + PIXEL * pixels + CHECK {
+        return None;
+    }
+    let (content, check) = bytes.split_last_chunk::<CHECK>()?;
+    if u128::from_le_bytes(*check) != Fnv::of(content) {
+        return None;
+    }
+    let (magic, rest) = content.split_first_chunk::<16>()?;
+    let (own_width, rest) = rest.split_first_chunk::<4>()?;
+    let (own_height, rest) = rest.split_first_chunk::<4>()?;
+    let (rays, rest) = rest.split_first_chunk::<8>()?;
+    let (seconds, rest) = rest.split_first_chunk::<8>()?;
+    let size = (u32::from_le_bytes(*own_width), u32::from_le_bytes(*own_height));
+    if magic != MAGIC || size != (width, height) {
+        return None;
+    }
+    let (visibility, scored) = rest.split_at_checked(4 * pixels)?;
+    let visibility = visibility.as_chunks::<4>().0.iter().map(|v| f32::from_le_bytes(*v)).collect();
+    let truth = Truth {
+        visibility: Image { width, height, data: visibility },
+        scored: Image { width, height, data: scored.iter().map(|scored| *scored != 0).collect() },
+        rays: u64::from_le_bytes(*rays),
+    };
+    Some(Traced { truth, seconds: f64::from_le_bytes(*seconds) })
+}
+
+/// The hash of Fowler, Noll and Vo with 128 bits (FNV-1a): the same on every machine and in every version.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Fnv(u128);
+
+impl Default for Fnv {
+    fn default() -> Self {
+        Self(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d)
+    }
+}
+
+impl Fnv {
+    fn of(bytes: &[u8]) -> u128 {
+        let mut hash = Self::default();
+        hash.add(bytes);
+        hash.0
+    }
+
+    fn add(&mut self, bytes: &[u8]) {
+        const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
+        for byte in bytes {
+            self.0 = (self.0 ^ u128::from(*byte)).wrapping_mul(PRIME);
+        }
+    }
+
+    fn text(&mut self, text: fmt::Arguments<'_>) {
+        // Taking text in can't fail.
+        let _ = self.write_fmt(text);
+    }
+}
+
+impl Write for Fnv {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.add(text.as_bytes());
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene() -> Scene {
+        (scenes::find("contact").expect("a scene").build)(0.2)
+    }
+
+    fn traced() -> Traced {
+        let visibility = Image { width: 2, height: 1, data: vec![0.25, 1.0] };
+        let scored = Image { width: 2, height: 1, data: vec![true, false] };
+        Traced { truth: Truth { visibility, scored, rays: 7 }, seconds: 1.5 }
+    }
+
+    #[test]
+    fn the_hash_is_the_published_one() {
+        assert_eq!(Fnv::of(b""), 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
+        assert_eq!(Fnv::of(b"a"), 0xd228_cb69_6f1a_8caf_7891_2b70_4e4a_8964);
+    }
+
+    #[test]
+    fn what_determines_the_truth_changes_its_key_and_nothing_else_does() {
+        let (mut scene, options) = (scene(), Options { samples: 8, ..Options::default() });
+        let light = scene.lights[1].clone();
+        let key = |scene: &Scene, light: &Light, size, options: &Options| SceneKey::new(scene).of(light, size, options);
+        let before = key(&scene, &light, (8, 6), &options);
+        let dim = Light { intensity: 0.5, ..light.clone() };
+        scene.name.push('x');
+        scene.lights.clear();
+        assert_eq!(key(&scene, &dim, (8, 6), &options), before);
+        let other = [
+            key(&scene, &light, (6, 8), &options),
+            key(&scene, &light, (8, 6), &Options { samples: 9, ..options }),
+            key(&scene, &probes(&light)[4], (8, 6), &options),
+        ];
+        scene.meshes[0].positions[0].x += 1e-6;
+        let moved = key(&scene, &light, (8, 6), &options);
+        assert!(other.iter().chain([&moved]).all(|other| *other != before), "{other:?} {moved:?}");
+    }
+
+    #[test]
+    fn truth_comes_back_as_it_was() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = place.path().join("truth");
+        let kept = Kept::new(&folder);
+        let key = Key(3);
+        assert_eq!(kept.read(key, (2, 1)).unwrap(), None);
+        kept.write(key, &traced()).unwrap();
+        assert_eq!(kept.read(key, (2, 1)).unwrap(), Some(traced()));
+        assert!(kept.read(key, (1, 2)).is_err(), "a picture of another size was taken");
+        let whole = fs::read(kept.path(key)).unwrap();
+        let mut changed = whole.clone();
+        changed[HEAD] ^= 1;
+        for wrong in [&whole[..whole.len() - 1], &whole[..8], &changed, b"not a truth at all"] {
+            fs::write(kept.path(key), wrong).unwrap();
+            assert!(kept.read(key, (2, 1)).unwrap_err().to_string().contains("damaged"));
+        }
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "something was left beside the truth");
+    }
+}

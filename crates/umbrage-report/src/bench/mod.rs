@@ -1,0 +1,12 @@
+//! Times of techniques, set against the least that any technique can cost in the same run.
+
+pub(crate) mod baseline;
+mod columns;
+mod csv;
+pub(crate) mod record;
+mod run;
+mod runner;
+mod table;
+
+pub use record::{BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene};
+pub use run::Bench;

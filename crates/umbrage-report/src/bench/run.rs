@@ -1,0 +1,186 @@
+//! The measurement: techniques take turns frame by frame.
+
+use crate::{
+    bench::{
+        baseline::{Baseline, Maps},
+        record::{BenchLight, BenchReport, BenchScene},
+        runner::Runner,
+    },
+    choice::Choice,
+    error::Error,
+    flicker::Follower,
+    made::Made,
+    measure::Frames,
+    motion::{Motion, Moving},
+    path::CameraPath,
+    progress::Progress,
+    record::SCHEMA,
+    source::Source,
+    stage::check_choices,
+};
+use umbrage::{Gpu, Technique, baseline};
+use umbrage_core::LightKind;
+use umbrage_reference::Tracer;
+use umbrage_renderer::{LightPass, Renderer};
+
+/// What to measure, and how.
+#[derive(Clone, Debug)]
+pub struct Bench {
+    /// The scenes, each with the lights to look at.
+    pub scenes: Vec<(Source, Vec<usize>)>,
+    /// The techniques.
+    pub choices: Vec<Choice>,
+    /// Pixels across and down.
+    pub size: (u32, u32),
+    /// Frames of each technique.
+    pub frames: u32,
+    /// What moves from frame to frame.
+    pub moving: Moving,
+    /// Where the camera goes; what flickers on the way is measured then, too. Lights and casters stand still.
+    pub path: Option<CameraPath>,
+    /// Rays for each point of a soft light's reference that flicker is set against.
+    pub samples: u32,
+    /// All lights of a scene in the same frame, each with a technique of its own, where it is otherwise one light at a time.
+    pub together: bool,
+    /// Measures techniques that know it by the single-pass algorithm for all lights at once, too.
+    pub overlay: bool,
+    /// The command line, for the record.
+    pub command: Vec<String>,
+}
+
+/// Of overlays; costs the same, whatever it is.
+const DARKNESS: f32 = 0.5;
+
+/// Frames before the measurement: pipelines are made in the first, buffers find their size in the second.
+const WARM_UP: u32 = 3;
+
+impl Bench {
+    /// Measures. Techniques take turns frame by frame, so that a drift of the machine hits all of them alike.
+    ///
+    /// # Errors
+    /// What stops everything: sizes beyond the adapter's limit, settings that can't be.
+    pub fn run(&self, gpu: &Gpu, progress: &dyn Progress) -> Result<BenchReport, Error> {
+        gpu.check_size("a picture", self.size.0, self.size.1)?;
+        check_choices(&self.choices, gpu)?;
+        self.check_path()?;
+        for (source, lights) in &self.scenes {
+            lights.iter().try_for_each(|&light| source.light(light).map(|_| ()))?;
+        }
+        let mut scenes = Vec::new();
+        for (source, lights) in &self.scenes {
+            let scene = &source.scene;
+            let motion = Motion::new(self.moving, scene);
+            let tracer = self.path.map(|_| Tracer::new(scene));
+            let groups: Vec<&[usize]> = if self.together { vec![lights] } else { lights.chunks(1).collect() };
+            let measure = |lights| self.lights(gpu, source, &motion, tracer.as_ref(), lights, progress);
+            let lights = groups.into_iter().map(measure).collect::<Result<_, _>>()?;
+            scenes.push(BenchScene {
+                name: scene.name.clone(),
+                source: source.asked.clone(),
+                triangles: scene.triangle_count(),
+                instances: scene.instances.len(),
+                lights,
+            });
+        }
+        let made = Made::now(self.command.clone(), gpu.adapter());
+        let (width, height) = self.size;
+        let (frames, moving, path) = (self.frames, self.moving, self.path);
+        Ok(BenchReport { schema: SCHEMA, made, width, height, frames, moving, path, scenes })
+    }
+
+    /// On a path what is fixed in the scene has to stand still, and one technique alone makes the picture.
+    fn check_path(&self) -> Result<(), Error> {
+        let wrong = match (self.path, self.frames) {
+            (None, _) => return Ok(()),
+            _ if self.moving != Moving::None => {
+                "no light, caster or other camera moves along a path; leave --moving out"
+            }
+            _ if self.together => "flicker is that of one light at a time; leave --lights-together out",
+            (_, 0 | 1) => "flicker is a change between frames; write --frames 2 or more",
+            _ => return Ok(()),
+        };
+        Err(Error::Name(format!("--path: {wrong}")))
+    }
+
+    /// Measures `lights` in the same frame.
+    fn lights(
+        &self,
+        gpu: &Gpu,
+        source: &Source,
+        motion: &Motion<'_>,
+        tracer: Option<&Tracer>,
+        lights: &[usize],
+        progress: &dyn Progress,
+    ) -> Result<BenchLight, Error> {
+        let (light, kind, together) = match lights {
+            [light] if !self.together => (Some(*light), source.scene.lights[*light].shape.kind().name(), None),
+            _ => (None, "all", Some(lights.to_vec())),
+        };
+        let mut record =
+            BenchLight { light, kind, together, flicker_reference: None, flicker_points: None, results: Vec::new() };
+        progress.begin(&format!("{}, {}", source.scene.name, record.title()), self.frames.into());
+        let mut runners = self.runners(gpu, source, lights);
+        let followed = tracer.zip(lights.first().map(|&light| &source.scene.lights[light]));
+        let mut follower =
+            followed.map(|(tracer, light)| Follower::new(source, light, tracer, self.samples, self.choices.len()));
+        for round in 0..WARM_UP + self.frames {
+            let counted = round.saturating_sub(WARM_UP);
+            let on_path = self.path.map(|path| path.camera(&source.scene.camera, counted, self.size.1));
+            let camera = on_path.unwrap_or_else(|| motion.camera(round));
+            for runner in &mut runners {
+                if let Ok(renderer) = &mut runner.renderer {
+                    motion.apply(gpu, renderer, lights, round);
+                }
+                runner.frame(gpu, &camera, round >= WARM_UP);
+            }
+            if let Some(follower) = follower.as_mut().filter(|_| round >= WARM_UP) {
+                let techniques = runners.iter().filter(|runner| runner.choice.is_some());
+                follower.frame(&camera, &techniques.map(|r| r.renderer.as_ref().ok()).collect::<Vec<_>>())?;
+            }
+            progress.at(counted.into());
+        }
+        progress.end();
+        let costs: Vec<_> = runners.iter().map(|r| (r.baseline, r.cost())).collect();
+        record.results = runners.iter().zip(&costs).map(|(r, (_, cost))| r.result(cost.clone(), &costs)).collect();
+        if let Some(follower) = &follower {
+            record.set_flicker(&follower.found());
+        }
+        Ok(record)
+    }
+
+    /// The baselines and all techniques, each with a renderer of its own.
+    fn runners<'a>(&'a self, gpu: &Gpu, source: &Source, lights: &[usize]) -> Vec<Runner<'a>> {
+        let make = |baseline, choice, technique: &dyn Fn(LightKind) -> Result<Box<dyn Technique>, Error>| {
+            let pass = |&light: &usize| {
+                let technique = technique(source.scene.lights[light].shape.kind())?;
+                Ok(LightPass { light, technique })
+            };
+            let renderer = gpu.catch(|| {
+                let passes = lights.iter().map(pass).collect::<Result<Vec<_>, Error>>()?;
+                Ok(Renderer::new(gpu, &source.scene, self.size.0, self.size.1, passes)?)
+            });
+            let anew = self.path.is_none() && self.moving == Moving::None;
+            let frames = Frames::default();
+            Runner { baseline, choice, renderer, overlay: false, anew, lights: lights.len(), frames }
+        };
+        // What has splits is set against one map, too.
+        let maps = self.choices.iter().map(Maps::of);
+        let mut maps: Vec<Maps> = maps.flat_map(|maps| [Maps { splits: 1, ..maps }, maps]).collect();
+        maps.sort_unstable();
+        maps.dedup();
+        let floor = make(Some(Baseline::Floor), None, &|_| Ok(baseline::floor(gpu)));
+        let bare = maps.into_iter().map(|maps| {
+            make(Some(Baseline::BareMinimum(maps)), None, &|_| Ok(baseline::bare_minimum(gpu, maps.size, maps.splits)?))
+        });
+        let techniques = self
+            .choices
+            .iter()
+            .map(|choice| make(None, Some(choice), &|kind| choice.supports(kind).and_then(|()| choice.make(gpu))));
+        let overlays = self.choices.iter().filter(|_| self.overlay).map(|choice| {
+            let runner = make(None, Some(choice), &|kind| choice.supports(kind).and_then(|()| choice.make(gpu)));
+            let set = |mut renderer: Renderer| Ok(renderer.set_overlay(Some(DARKNESS)).map(|()| renderer)?);
+            Runner { renderer: runner.renderer.and_then(set), overlay: true, ..runner }
+        });
+        std::iter::once(floor).chain(bare).chain(techniques).chain(overlays).collect()
+    }
+}
