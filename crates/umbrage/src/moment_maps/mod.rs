@@ -8,7 +8,8 @@ mod made;
 mod pipelines;
 mod range;
 
-use crate::depth_maps::{DepthMaps, Stage, TapStage, Taps};
+use crate::casters::Casters;
+use crate::depth_maps::{MapFrame, Stage, TapStage, Taps};
 use crate::fullscreen::{self, FLOATS, UNIFORM, bind, layout};
 use crate::shader::{Shader, Shared, shader_struct};
 use crate::{choices, settings};
@@ -171,8 +172,8 @@ impl Stage for MomentStage {
         false
     }
 
-    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &DepthMaps) -> Result<(), Error> {
-        let Some(texture) = maps.result() else { return Ok(()) };
+    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &MapFrame) -> Result<(), Error> {
+        let Some(texture) = &maps.texture else { return Ok(()) };
         let mut is_new = false;
         if let Some(taps) = &mut self.taps {
             is_new = taps.prepare_tables(gpu, view, maps);
@@ -202,10 +203,10 @@ impl Stage for MomentStage {
         Ok(())
     }
 
-    fn record(&mut self, passes: &mut Passes<'_>, maps: &DepthMaps) -> u32 {
+    fn record(&mut self, passes: &mut Passes<'_>, maps: &MapFrame, casters: &Casters) -> u32 {
         let Some(made) = &self.made else { return 0 };
         passes.upload(&self.uniforms, bytemuck::bytes_of(&self.data));
-        let mut draws = self.taps.as_mut().map_or(0, |taps| taps.record(passes, maps));
+        let mut draws = self.taps.as_mut().map_or(0, |taps| taps.record(passes, maps, casters));
         let (taken, data) = (&mut self.taken, self.data);
         let mut is_new = |layer: u32| {
             let now = (maps.version(layer), data);

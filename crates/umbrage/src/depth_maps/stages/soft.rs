@@ -1,8 +1,10 @@
 //! What filters that follow the light's size bind besides the maps: taps for search and filter, and bounds of depth.
 
 use super::bounds::BoundsPyramid;
+use super::stage::Stage;
 use super::taps::{Shape, Taps};
-use super::{DepthMaps, Stage};
+use crate::casters::Casters;
+use crate::depth_maps::frame::MapFrame;
 use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
 
@@ -36,8 +38,8 @@ impl TapStage {
     }
 
     /// Makes or keeps the tables for this frame; true where one is new.
-    pub(crate) fn prepare_tables(&mut self, gpu: &Gpu, view: &View<'_>, maps: &DepthMaps) -> bool {
-        let Some(texture) = maps.result() else { return false };
+    pub(crate) fn prepare_tables(&mut self, gpu: &Gpu, view: &View<'_>, maps: &MapFrame) -> bool {
+        let Some(texture) = &maps.texture else { return false };
         let shape = if self.follows_light { Shape::of(&view.light.shape) } else { Shape::DISC };
         let has_new_bounds = self.bounds.as_mut().is_some_and(|b| b.prepare(gpu, texture));
         self.taps.prepare(gpu, shape, view.textures) || has_new_bounds
@@ -55,14 +57,14 @@ impl Stage for TapStage {
         &self.layout
     }
 
-    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &DepthMaps) -> Result<(), Error> {
+    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &MapFrame) -> Result<(), Error> {
         if self.prepare_tables(gpu, view, maps) {
             self.bind_group = Some(bind(gpu, "taps", &self.layout, &self.resources()));
         }
         Ok(())
     }
 
-    fn record(&mut self, passes: &mut Passes<'_>, maps: &DepthMaps) -> u32 {
+    fn record(&mut self, passes: &mut Passes<'_>, maps: &MapFrame, _: &Casters) -> u32 {
         if let Some(bounds) = self.bounds.as_mut().filter(|_| self.reads_bounds) {
             bounds.record(passes, maps);
         }

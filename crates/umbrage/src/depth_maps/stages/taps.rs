@@ -1,4 +1,4 @@
-//! The table of taps on the GPU, see `stages/map_taps.wgsl`.
+//! The table of taps on the GPU, see `map_taps.wgsl`.
 
 use crate::choices;
 use crate::gpu::Gpu;
@@ -37,7 +37,7 @@ shader_struct! {
 }
 
 /// What the host has to agree on with `map_taps.wgsl`.
-pub(super) const SHARED: Shared =
+pub(in crate::depth_maps) const SHARED: Shared =
     Shared { module: "map_taps", layouts: &[TapsHead::LAYOUT], constants: &[("TILE_PIXELS", PIXELS as f64)] };
 
 /// Taps for one kind of light.

@@ -2,8 +2,10 @@
 //!
 //! Sources: Lauritzen, Salvi and Lefohn, "Sample Distribution Shadow Maps", 2011 (the range; parts are cropped by their corners).
 
-use super::uniforms::{MapLayer, texels_in_plane};
-use super::{DepthMaps, MOST_LAYERS};
+use crate::depth_maps::frame::MapFrame;
+use crate::depth_maps::layers::MOST_LAYERS;
+use crate::depth_maps::lookup::MapLayer;
+use crate::depth_maps::texels::{matrix, texels_from_clip, texels_in_plane, view_distance};
 use crate::fullscreen::{STORAGE_WRITE, UNIFORM, bind, layout};
 use crate::shader::{Shader, shader_struct};
 use crate::{
@@ -13,15 +15,15 @@ use crate::{
     view::View,
 };
 use umbrage_core::glam::{DMat4, DVec4};
-use umbrage_core::light_view::LightView;
+use umbrage_core::light_view::{Cascades, LightView};
 
 /// Finds the range of visible depths and crops views to parts of it.
-pub(crate) const SPLIT_FIT_SHADER: Shader = Shader::new("split fit", include_str!("stages/split_fit.wgsl"))
+pub(crate) const SPLIT_FIT_SHADER: Shader = Shader::new("split fit", include_str!("split_fit.wgsl"))
     .with_layouts(&[SplitFit::LAYOUT])
     .with_constants(&[("PIXELS", PIXELS as f64)]);
 
 shader_struct! {
-    /// See `stages/split_fit.wgsl`.
+    /// See `split_fit.wgsl`.
     pub(crate) struct SplitFit {
         eye: Eye,
         base: MapLayer,
@@ -43,11 +45,8 @@ shader_struct! {
 /// Pixels across and down a workgroup of `find_range`.
 const PIXELS: u32 = 32;
 
-/// Bytes of a view's matrix.
-const MATRIX: u64 = 64;
-
 /// Pipelines and buffers.
-pub(super) struct SplitFitter {
+pub(in crate::depth_maps) struct SplitFitter {
     find_range: wgpu::ComputePipeline,
     /// For views that are parallel, and for those from a point.
     fit_splits: [wgpu::ComputePipeline; 2],
@@ -62,7 +61,7 @@ pub(super) struct SplitFitter {
 
 impl SplitFitter {
     /// `lookup` are the uniforms of the look-up, which it patches.
-    pub(super) fn new(gpu: &Gpu, lookup: &wgpu::Buffer) -> Self {
+    pub fn new(gpu: &Gpu, lookup: &wgpu::Buffer) -> Self {
         let bindings = [UNIFORM, STORAGE_WRITE, STORAGE_WRITE, STORAGE_WRITE];
         let layout = layout(gpu, "split fit", wgpu::ShaderStages::COMPUTE, &bindings);
         let module = SPLIT_FIT_SHADER.module(gpu);
@@ -103,8 +102,8 @@ impl SplitFitter {
     }
 
     /// For the views of this frame, which are all the same.
-    pub(super) fn prepare(&mut self, view: &View<'_>, maps: &DepthMaps) {
-        let (Some(light_view), Some(cascades)) = (maps.views.first(), maps.choice.cascades()) else { return };
+    pub fn prepare(&mut self, view: &View<'_>, maps: &MapFrame, cascades: &Cascades) {
+        let Some(light_view) = maps.views.first() else { return };
         let eye_from_ndc = view.clip_from_eye().inverse();
         let world_from_ndc = DMat4::from_translation(view.camera.eye) * eye_from_ndc;
         let [corners, ways] = corners(view, light_view, &eye_from_ndc);
@@ -112,15 +111,13 @@ impl SplitFitter {
         self.data = SplitFit {
             eye: Eye::new(view),
             base: MapLayer::of(light_view, &world_from_ndc, &maps.scene.casters),
-            clip_from_world: super::uniforms::matrix(
-                &(light_view.clip_from_world * DMat4::from_translation(view.casters.origin())),
-            ),
+            clip_from_world: matrix(&(light_view.clip_from_world * DMat4::from_translation(view.casters.origin()))),
             corners,
             ways,
-            view_distance: super::uniforms::view_distance(view, &eye_from_ndc),
+            view_distance: view_distance(view, &eye_from_ndc),
             size: maps.size as f32,
             border: maps.border_texels as f32,
-            margin: (maps.soft_texels + maps.choice.softness_m() / texels_in_plane(light_view)[1].min_element()) as f32,
+            margin: (maps.soft_texels + maps.softness_m / texels_in_plane(light_view)[1].min_element()) as f32,
             count: cascades.count as u32,
             lambda: cascades.lambda as f32,
             overlap: cascades.overlap as f32,
@@ -130,7 +127,7 @@ impl SplitFitter {
     }
 
     /// Patches the look-up's uniforms, after these were uploaded.
-    pub(super) fn record(&self, passes: &mut Passes<'_>, receivers: &Receivers) {
+    pub fn record(&self, passes: &mut Passes<'_>, receivers: &Receivers) {
         passes.upload(&self.uniform, bytemuck::bytes_of(&self.data));
         passes.upload(&self.range, bytemuck::bytes_of(&[u32::MAX, 0]));
         let mut pass = passes.compute("split fit");
@@ -142,22 +139,20 @@ impl SplitFitter {
         pass.dispatch_workgroups(1, 1, 1);
     }
 
-    /// Puts the matrix of a layer at the start of `uniform`.
-    pub(super) fn copy_matrix(&self, passes: &mut Passes<'_>, layer: u32, uniform: &wgpu::Buffer) {
-        let from = u64::from(layer) * MATRIX;
-        passes.encoder().copy_buffer_to_buffer(&self.matrices, from, uniform, 0, MATRIX);
+    /// A matrix for each layer, from the casters' space to clip space.
+    pub fn matrices(&self) -> &wgpu::Buffer {
+        &self.matrices
     }
 
-    pub(super) fn bytes(&self) -> u64 {
+    pub fn bytes(&self) -> u64 {
         self.uniform.size() + self.range.size() + self.matrices.size()
     }
 }
 
 /// Homogeneous texels of the four corners of the camera's view at distance 0 along it, and their change per metre.
 fn corners(view: &View<'_>, light_view: &LightView, eye_from_ndc: &DMat4) -> [[[f32; 4]; 4]; 2] {
-    let map_from_eye = super::uniforms::texels_from_clip(light_view.size)
-        * light_view.clip_from_world
-        * DMat4::from_translation(view.camera.eye);
+    let map_from_eye =
+        texels_from_clip(light_view.size) * light_view.clip_from_world * DMat4::from_translation(view.camera.eye);
     let forward = view.camera.forward();
     let homogeneous = |p: DVec4| {
         let h = map_from_eye * p;

@@ -1,6 +1,7 @@
 //! What maps of splits that stand still share: their axes, and depth. A receiver's place in one of them gives that in all others.
 
-use super::uniforms::{MapLayer, texels_from_clip, texels_in_plane};
+use super::layer::MapLayer;
+use crate::depth_maps::texels::{texels_from_clip, texels_in_plane};
 use umbrage_core::glam::DVec2;
 use umbrage_core::light_view::LightView;
 
@@ -20,7 +21,7 @@ pub(super) fn share_first(views: &[LightView], layers: &mut [MapLayer]) {
 /// Of a layer that was not rendered: every point is outside of its map.
 const OUTSIDE: [f32; 4] = [0.0, 0.0, -1.0, -1.0];
 
-/// See `lookup/map_layers.wgsl`.
+/// See `map_layers.wgsl`.
 fn from_first(first: &LightView, view: &LightView) -> [f32; 4] {
     let [(from, wide_from), (to, wide_to)] = [first, view].map(place);
     let scale = wide_from / wide_to;

@@ -1,8 +1,9 @@
 //! One layer of a map: what it has to draw in a frame.
 
 use super::cache::{Frame, LayerCache, Work};
-use super::uniforms::{MapView, near};
+use super::view::MapView;
 use crate::casters::{Casters, DrawList, InstanceNumbers, Light};
+use crate::depth_maps::texels::near;
 use umbrage_core::{Bounds, light_view::LightView};
 
 /// A layer, what is kept of it and what this frame draws.

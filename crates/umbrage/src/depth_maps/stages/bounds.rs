@@ -1,18 +1,19 @@
 //! Nearest depths of ever larger parts of a map: what lets soft filters skip what is surely lit, and look for blockers
 //! only as far as there can be some.
 
-use super::DepthMaps;
+use crate::depth_maps::frame::MapFrame;
 use crate::fullscreen::{STORAGE, UNIFORM, bind, layout};
 use crate::shader::{Shader, Shared, shader_struct};
 use crate::{gpu::Gpu, passes::Passes};
 
 /// Makes the pyramid, level by level.
-pub(crate) const BOUNDS_SHADER: Shader = Shader::new("map bounds", include_str!("stages/map_bounds.wgsl"))
+pub(crate) const BOUNDS_SHADER: Shader = Shader::new("map bounds", include_str!("map_bounds.wgsl"))
     .with_layouts(&[MapBoundsPass::LAYOUT])
     .with_constants(&[("WORKGROUP", WORKGROUP as f64)]);
 
 /// What the host has to agree on with `map_cells.wgsl`.
-pub(super) const SHARED: Shared = Shared { module: "map_cells", layouts: &[MapBoundsHead::LAYOUT], constants: &[] };
+pub(in crate::depth_maps) const SHARED: Shared =
+    Shared { module: "map_cells", layouts: &[MapBoundsHead::LAYOUT], constants: &[] };
 
 /// Most cells a side of the finest level: larger maps have wider cells.
 const MOST_CELLS: u32 = 1024;
@@ -24,7 +25,7 @@ const FINEST: u32 = 2;
 const WORKGROUP: u32 = 8;
 
 shader_struct! {
-    /// See `stages/map_cells.wgsl`.
+    /// See `map_cells.wgsl`.
     pub(crate) struct MapBoundsHead {
         cells: u32,
         finest: u32,
@@ -34,7 +35,7 @@ shader_struct! {
 }
 
 shader_struct! {
-    /// See `stages/map_bounds.wgsl`.
+    /// See `map_bounds.wgsl`.
     pub(crate) struct MapBoundsPass {
         layer: u32,
         level: u32,
@@ -123,7 +124,7 @@ impl BoundsPyramid {
     }
 
     /// Fills the layers that were rendered since.
-    pub(crate) fn record(&mut self, passes: &mut Passes<'_>, maps: &DepthMaps) {
+    pub(crate) fn record(&mut self, passes: &mut Passes<'_>, maps: &MapFrame) {
         let Some(made) = &mut self.made else { return };
         let mut is_new = |layer: u32| {
             let now = maps.version(layer);

@@ -1,13 +1,13 @@
 //! The textures of a light's maps.
 
-use super::pipelines::Pipelines;
+use super::layouts::{Layouts, view_uniform};
 use crate::gpu::Gpu;
 
 /// The format of maps: floats, since reversed depth needs their precision far away.
 pub(super) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// The textures of a light's maps and the buffers that go with each layer.
-pub(crate) struct Textures {
+pub(super) struct Textures {
     first: wgpu::Texture,
     /// Casters at rest, and its layers: made when first needed.
     store: Option<(wgpu::Texture, Vec<wgpu::TextureView>)>,
@@ -34,22 +34,22 @@ pub(super) struct SecondViews {
 }
 
 impl Textures {
-    pub(super) fn new(gpu: &Gpu, pipelines: &Pipelines, size: u32, layers: u32, midpoint: bool) -> Self {
-        let texture = |label| map_texture(gpu, label, size, layers);
+    pub(super) fn new(gpu: &Gpu, layouts: &Layouts, size: u32, count: u32, midpoint: bool) -> Self {
+        let texture = |label| map_texture(gpu, label, size, count);
         let first = texture("shadow map");
         let midpoint = midpoint.then(|| (texture("second surface"), texture("midpoint")));
-        let views = (0..layers).map(|i| {
+        let views = (0..count).map(|i| {
             let first = layer_view(&first, i);
             let second = midpoint.as_ref().map(|(second, mid)| {
                 let (second, midpoint) = (layer_view(second, i), layer_view(mid, i));
-                let read_first = pipelines.read_first(gpu, &first);
-                let read_both = pipelines.read_both(gpu, &first, &second);
+                let read_first = layouts.read_first(gpu, &first);
+                let read_both = layouts.read_both(gpu, &first, &second);
                 SecondViews { second, midpoint, read_first, read_both }
             });
             LayerViews { first, second }
         });
         let layers = views.collect();
-        let uniforms = (0..first.depth_or_array_layers()).map(|_| pipelines.view_uniform(gpu)).collect();
+        let uniforms = (0..first.depth_or_array_layers()).map(|_| view_uniform(gpu, &layouts.view)).collect();
         Self { first, store: None, midpoint, uniforms, layers }
     }
 
@@ -81,12 +81,17 @@ impl Textures {
         encoder.copy_texture_to_texture(of(store), of(&self.first), extent);
     }
 
+    /// Texels across and down.
+    pub(super) fn size(&self) -> u32 {
+        self.first.width()
+    }
+
     pub(super) fn layers(&self) -> u32 {
         self.first.depth_or_array_layers()
     }
 
     /// The texture that is looked up.
-    pub(crate) fn result(&self) -> &wgpu::Texture {
+    pub(super) fn result(&self) -> &wgpu::Texture {
         self.midpoint.as_ref().map_or(&self.first, |(_, midpoint)| midpoint)
     }
 

@@ -2,7 +2,9 @@
 
 use super::phases::{OpenPixels, Phase};
 use super::uniforms::MapLookup;
-use super::{Blend, DepthMaps, Layers};
+use crate::depth_maps::frame::MapFrame;
+use crate::depth_maps::layers::Layers;
+use crate::depth_maps::setup::Blend;
 use crate::{
     fullscreen::{Fullscreen, UNIFORM, bind, layout},
     gpu::Gpu,
@@ -15,7 +17,7 @@ use crate::{
 use umbrage_core::LightShape;
 
 /// Pipelines (one for each combination that came up) and the uniforms of the pass.
-pub(crate) struct Lookup {
+pub(in crate::depth_maps) struct Lookup {
     module: wgpu::ShaderModule,
     constants: Vec<(&'static str, f64)>,
     bias: f64,
@@ -23,7 +25,7 @@ pub(crate) struct Lookup {
     /// Layout of what the technique binds besides, as group 2.
     more: Option<wgpu::BindGroupLayout>,
     pipelines: Vec<(Variant, Draws)>,
-    /// The shader has a `quick_share`, see `lookup/map_quick.wgsl`.
+    /// The shader has a `quick_share`, see `map_quick.wgsl`.
     is_quick: bool,
     open: OpenPixels,
     uniforms: wgpu::Buffer,
@@ -51,7 +53,7 @@ struct Variant {
 }
 
 impl Lookup {
-    pub(crate) fn new(
+    pub fn new(
         gpu: &Gpu,
         shader: &Shader,
         bias: f64,
@@ -87,26 +89,26 @@ impl Lookup {
     }
 
     /// Multiplies the automatic bias from the next frame on.
-    pub(super) fn set_bias(&mut self, bias: f64) {
+    pub fn set_bias(&mut self, bias: f64) {
         self.bias = bias;
     }
 
-    /// Looks up in two phases; the shader has a `quick_share`, see `lookup/map_quick.wgsl`.
-    pub(super) fn in_phases(&mut self) {
+    /// Looks up in two phases; the shader has a `quick_share`, see `map_quick.wgsl`.
+    pub fn in_phases(&mut self) {
         self.is_quick = true;
     }
 
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &DepthMaps) {
+    pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &MapFrame) {
         self.current = None;
-        let Some(textures) = maps.textures.as_ref().filter(|_| !maps.views.is_empty()) else { return };
+        let Some(texture) = maps.texture.as_ref().filter(|_| !maps.views.is_empty()) else { return };
         self.data = MapLookup::new(view, maps, self.bias);
         let perspective = maps.is_from_a_point();
-        let linear = maps.linear && perspective;
+        let linear = maps.is_linear;
         let round = matches!(view.light.shape, LightShape::Sphere { .. } | LightShape::Ellipsoid { .. });
         let has_normals = view.receivers.has_normals;
-        let warped = maps.is_warped();
+        let warped = maps.is_warped;
         let steady = maps.views.iter().any(|v| v.steady_border.is_some());
-        let variant = Variant { round, perspective, warped, layout: maps.layout, linear, has_normals, steady };
+        let variant = Variant { round, perspective, warped, layout: maps.layers, linear, has_normals, steady };
         let known = self.pipelines.iter().position(|(v, _)| *v == variant);
         self.current = Some(known.unwrap_or_else(|| {
             self.pipelines.push((variant, self.draws_of(gpu, variant)));
@@ -115,23 +117,23 @@ impl Lookup {
         if self.phases().len() > 1 {
             self.open.prepare(gpu, view.receivers.size);
         }
-        if self.bind_group.as_ref().is_none_or(|(t, _)| t != textures.result()) {
-            self.bind_group = Some((textures.result().clone(), self.bind(gpu, textures.result())));
+        if self.bind_group.as_ref().is_none_or(|(t, _)| t != texture) {
+            self.bind_group = Some((texture.clone(), self.bind(gpu, texture)));
         }
     }
 
     /// The uniforms of [`MapLookup`].
-    pub(super) fn uniforms(&self) -> &wgpu::Buffer {
+    pub fn uniforms(&self) -> &wgpu::Buffer {
         &self.uniforms
     }
 
     /// Before [`Lookup::record`].
-    pub(super) fn upload(&self, passes: &mut Passes<'_>) {
+    pub fn upload(&self, passes: &mut Passes<'_>) {
         passes.upload(&self.uniforms, bytemuck::bytes_of(&self.data));
     }
 
     /// Writes 1 everywhere where there is nothing to look up. `more` is what the technique binds as group 2. Returns the number of draws.
-    pub(crate) fn record(
+    pub fn record(
         &self,
         passes: &mut Passes<'_>,
         receivers: &Receivers,
@@ -156,7 +158,7 @@ impl Lookup {
         draws.len() as u32
     }
 
-    pub(crate) fn bytes(&self) -> u64 {
+    pub fn bytes(&self) -> u64 {
         self.uniforms.size() + self.open.bytes()
     }
 

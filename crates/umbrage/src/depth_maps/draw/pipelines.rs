@@ -2,21 +2,23 @@
 
 use super::cache::Work;
 use super::layer::Layer;
+use super::layouts::Layouts;
 use super::textures::{FORMAT, Textures};
-use super::uniforms::MapView;
 use crate::casters::{Casters, InstanceNumbers, Surface, texture_layout, vertex_layouts};
-use crate::fullscreen::{self, UNIFORM, bind, layout};
 use crate::shader::Shader;
 use crate::{gpu::Gpu, passes::Passes};
 
 /// Nearest surface, opaque and alpha-masked.
-pub(crate) const DEPTH_SHADER: Shader = Shader::new("shadow map", "// needs: map_depth, map_paraboloid");
+const DEPTH_SHADER: Shader = Shader::new("shadow map", "// needs: map_depth, map_paraboloid");
 
 /// Second surface.
-pub(crate) const SECOND_SHADER: Shader = Shader::new("second surface", include_str!("draw/map_second.wgsl"));
+const SECOND_SHADER: Shader = Shader::new("second surface", include_str!("map_second.wgsl"));
 
 /// Mean of the two.
-pub(crate) const MIDPOINT_SHADER: Shader = Shader::new("midpoint", include_str!("draw/map_midpoint.wgsl"));
+const MIDPOINT_SHADER: Shader = Shader::new("midpoint", include_str!("map_midpoint.wgsl"));
+
+/// All of them.
+pub(in crate::depth_maps) const SHADERS: [Shader; 3] = [DEPTH_SHADER, SECOND_SHADER, MIDPOINT_SHADER];
 
 /// What pipelines are made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,9 +35,7 @@ pub(super) struct Pipelines {
     nearest: wgpu::ShaderModule,
     /// For `faces = midpoint`: second surface and mean.
     second: Option<[wgpu::ShaderModule; 2]>,
-    view_layout: wgpu::BindGroupLayout,
-    one_map: wgpu::BindGroupLayout,
-    two_maps: wgpu::BindGroupLayout,
+    layouts: Layouts,
     made: Vec<(Kind, Set)>,
 }
 
@@ -79,9 +79,7 @@ impl Pipelines {
             cull_mode: back_faces.then_some(wgpu::Face::Front),
             nearest: DEPTH_SHADER.module(gpu),
             second: midpoint.then(|| [SECOND_SHADER.module(gpu), MIDPOINT_SHADER.module(gpu)]),
-            view_layout: layout(gpu, "map view", wgpu::ShaderStages::VERTEX_FRAGMENT, &[UNIFORM]),
-            one_map: depth_layout(gpu, 1),
-            two_maps: depth_layout(gpu, 2),
+            layouts: Layouts::new(gpu),
             made: Vec::new(),
         }
     }
@@ -114,8 +112,8 @@ impl Pipelines {
             let constants = if fragment == Some("cut_out") { &[][..] } else { &constants };
             pipeline(gpu, &Recipe { layout, module, vertex, fragment, cull_mode, compare, constants })
         };
-        let plain = pipeline_layout(&[Some(&self.view_layout), Some(&casters)]);
-        let textured = pipeline_layout(&[Some(&self.view_layout), Some(&casters), Some(&textures)]);
+        let plain = pipeline_layout(&[Some(&self.layouts.view), Some(&casters)]);
+        let textured = pipeline_layout(&[Some(&self.layouts.view), Some(&casters), Some(&textures)]);
         let [opaque, masked] = kind.entries();
         let front = cull_mode.or(Some(wgpu::Face::Back));
         let nearest = [
@@ -124,11 +122,11 @@ impl Pipelines {
             draw(&self.nearest, &textured, masked.0, masked.1, cull_mode),
         ];
         let second = self.second.as_ref().map(|[second, mean]| {
-            let one_map = Some(&self.one_map);
-            let all = pipeline_layout(&[Some(&self.view_layout), Some(&casters), Some(&textures), one_map]);
+            let one_map = Some(&self.layouts.one_map);
+            let all = pipeline_layout(&[Some(&self.layouts.view), Some(&casters), Some(&textures), one_map]);
             let surface =
                 [opaque, masked].map(|(vertex, _, fragment)| draw(second, &all, vertex, Some(fragment), cull_mode));
-            let midpoint = midpoint_pipeline(gpu, mean, &pipeline_layout(&[Some(&self.two_maps)]), kind);
+            let midpoint = midpoint_pipeline(gpu, mean, &pipeline_layout(&[Some(&self.layouts.two_maps)]), kind);
             SecondPipelines { surface, midpoint }
         });
         Set { nearest, second }
@@ -179,24 +177,8 @@ impl Pipelines {
         2
     }
 
-    pub(super) fn view_uniform(&self, gpu: &Gpu) -> (wgpu::Buffer, wgpu::BindGroup) {
-        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
-        let buffer = gpu.buffer("map view", &[MapView::default()], usage);
-        let bind_group = bind(gpu, "map view", &self.view_layout, &[buffer.as_entire_binding()]);
-        (buffer, bind_group)
-    }
-
-    pub(super) fn read_first(&self, gpu: &Gpu, first: &wgpu::TextureView) -> wgpu::BindGroup {
-        read(gpu, &self.one_map, &[first])
-    }
-
-    pub(super) fn read_both(
-        &self,
-        gpu: &Gpu,
-        first: &wgpu::TextureView,
-        second: &wgpu::TextureView,
-    ) -> wgpu::BindGroup {
-        read(gpu, &self.two_maps, &[first, second])
+    pub(super) fn layouts(&self) -> &Layouts {
+        &self.layouts
     }
 }
 
@@ -213,17 +195,6 @@ fn over(view: &wgpu::TextureView) -> Option<wgpu::RenderPassDepthStencilAttachme
 fn attachment(view: &wgpu::TextureView, load: wgpu::LoadOp<f32>) -> Option<wgpu::RenderPassDepthStencilAttachment<'_>> {
     let depth_ops = Some(wgpu::Operations { load, store: wgpu::StoreOp::Store });
     Some(wgpu::RenderPassDepthStencilAttachment { view, depth_ops, stencil_ops: None })
-}
-
-/// A layout of so many depth textures.
-fn depth_layout(gpu: &Gpu, count: usize) -> wgpu::BindGroupLayout {
-    let depth = fullscreen::texture(wgpu::TextureSampleType::Depth);
-    layout(gpu, "depth maps", wgpu::ShaderStages::FRAGMENT, &vec![depth; count])
-}
-
-fn read(gpu: &Gpu, layout: &wgpu::BindGroupLayout, views: &[&wgpu::TextureView]) -> wgpu::BindGroup {
-    let resources: Vec<_> = views.iter().map(|view| wgpu::BindingResource::TextureView(view)).collect();
-    bind(gpu, "depth maps", layout, &resources)
 }
 
 fn midpoint_pipeline(

@@ -1,0 +1,50 @@
+//! What the shaders that draw a map need to know of a view.
+
+use crate::depth_maps::texels::{InTexels, matrix, near};
+use crate::shader::{Shared, shader_struct};
+use umbrage_core::glam::{DMat4, DVec2, DVec3};
+use umbrage_core::light_view::{FARTHEST, LightView};
+
+shader_struct! {
+    /// What the shaders that draw a map need, see `map_depth.wgsl`.
+    pub(crate) struct MapView {
+        clip_from_world: [[f32; 4]; 4],
+        clip_from_plane: [f32; 4],
+        plane_from_texel: [f32; 4],
+        same: [f32; 2],
+        farthest: f32,
+        near: f32,
+    }
+}
+
+/// What the host has to agree on with `map_depth.wgsl`.
+pub(in crate::depth_maps) const SHARED: Shared =
+    Shared { module: "map_depth", layouts: &[MapView::LAYOUT], constants: &[] };
+
+impl MapView {
+    /// Bytes of the matrix that it starts with.
+    pub const MATRIX: u64 = size_of::<[[f32; 4]; 4]>() as u64;
+
+    /// For casters relative to `origin`.
+    pub(super) fn new(view: &LightView, origin: DVec3, linear: bool) -> Self {
+        let plane = view.paraboloid.as_ref().map(|p| (p, InTexels::of(view.size, p)));
+        let four = |a: DVec2, b: DVec2| a.extend(b.x).extend(b.y).as_vec4().to_array();
+        Self {
+            clip_from_world: matrix(&(view.clip_from_world * DMat4::from_translation(origin))),
+            clip_from_plane: plane.map_or([0.0; 4], |(p, _)| four(p.scale, p.axis)),
+            // Up in the plane is up in the picture, texels go down.
+            plane_from_texel: plane.map_or([0.0; 4], |(_, texels)| {
+                let scale = DVec2::new(1.0, -1.0) / texels.per_unit;
+                four(scale, -texels.axis * scale)
+            }),
+            same: match (view.is_perspective(), linear, plane.is_some()) {
+                (false, ..) => [0.0, 1e-7],
+                (true, true, _) => [0.0, 1e-6],
+                (true, false, false) => [1e-5, 0.0],
+                (true, false, true) => [4e-5, 0.0],
+            },
+            farthest: FARTHEST as f32,
+            near: near(view) as f32,
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! From maps to visibility: the uniforms and the full-screen pass.
+
+mod extent;
+mod layer;
+mod pass;
+mod phases;
+mod steady;
+mod uniforms;
+
+pub(super) use layer::MapLayer;
+pub(super) use pass::Lookup;
+pub(super) use uniforms::SHARED;

@@ -1,0 +1,116 @@
+//! What the shader that looks maps up has to know: the eye, the views and the light's extent.
+
+use super::extent::LightExtent;
+use super::layer::MapLayer;
+use super::steady::share_first;
+use crate::depth_maps::frame::MapFrame;
+use crate::depth_maps::layers::{LAYER_CONSTANTS, MOST_LAYERS};
+use crate::depth_maps::texels::{matrix, near, view_distance};
+use crate::{receivers::Eye, shader::Shared, shader::shader_struct, view::View};
+use umbrage_core::Bounds;
+use umbrage_core::glam::{DMat4, DVec4};
+use umbrage_core::light_view::FARTHEST;
+
+shader_struct! {
+    /// See `map_layers.wgsl`.
+    pub(crate) struct MapLookup {
+        eye: Eye,
+        layers: [MapLayer; MOST_LAYERS],
+        from_light: [[f32; 4]; 4],
+        rounding: [f32; 2],
+        size: f32,
+        bias: f32,
+        caster_rounding: f32,
+        farthest: f32,
+        last_split: f32,
+        softness: f32,
+        view_distance: [f32; 4],
+        splits: [[f32; 4]; 2],
+        blends: [[f32; 4]; 2],
+        light: LightExtent,
+    }
+}
+
+/// What the host has to agree on with `map_layers.wgsl`.
+pub(in crate::depth_maps) const SHARED: Shared = Shared {
+    module: "map_layers",
+    layouts: &[MapLayer::LAYOUT, LightExtent::LAYOUT, MapLookup::LAYOUT],
+    constants: LAYER_CONSTANTS,
+};
+
+impl MapLookup {
+    /// For the maps of this frame; `bias` multiplies the automatic one.
+    pub(super) fn new(view: &View<'_>, maps: &MapFrame, bias: f64) -> Self {
+        let eye_from_ndc = view.clip_from_eye().inverse();
+        // A layer that was not rendered sends every point outside of the map, where all is lit.
+        let outside = DMat4::from_cols(DVec4::ZERO, DVec4::ZERO, DVec4::ZERO, DVec4::new(-1.0, -1.0, 0.0, 1.0));
+        let mut layers = [MapLayer { map_from_ndc: matrix(&outside), ..MapLayer::default() }; MOST_LAYERS];
+        let world_from_ndc = DMat4::from_translation(view.camera.eye) * eye_from_ndc;
+        for v in &maps.views {
+            layers[v.layer as usize] = MapLayer::of(v, &world_from_ndc, &maps.scene.casters);
+        }
+        share_first(&maps.views, &mut layers);
+        let center = view.light.shape.center();
+        let from_light = DMat4::from_translation(view.camera.eye * center.w - center.truncate()) * eye_from_ndc;
+        Self {
+            eye: Eye::new(view),
+            layers,
+            from_light: matrix(&from_light),
+            size: maps.size as f32,
+            rounding: rounding(maps),
+            bias: bias as f32,
+            caster_rounding: (largest_coordinate(view) * 2.4e-7 + storage_rounding(maps)) as f32,
+            farthest: FARTHEST as f32,
+            softness: maps.softness_m as f32,
+            light: LightExtent::of(&view.light.shape),
+            ..Self::splits(view, maps, &eye_from_ndc)
+        }
+    }
+}
+
+impl MapLookup {
+    /// What chooses the split of a pixel.
+    fn splits(view: &View<'_>, maps: &MapFrame, eye_from_ndc: &DMat4) -> Self {
+        let [mut splits, mut blends] = [[f32::MAX; MOST_LAYERS - 1]; 2];
+        for (i, ends) in
+            maps.borders.windows(2).take(maps.borders.len().saturating_sub(2)).enumerate().take(MOST_LAYERS - 1)
+        {
+            splits[i] = ends[1] as f32;
+            blends[i] = (ends[1] - maps.overlap * (ends[1] - ends[0])) as f32;
+        }
+        let halves = |v: [f32; MOST_LAYERS - 1]| [[v[0], v[1], v[2], v[3]], [v[4], v[5], v[6], v[7]]];
+        Self {
+            splits: halves(splits),
+            blends: halves(blends),
+            last_split: maps.borders.last().map_or(f32::MAX, |last| *last as f32),
+            view_distance: view_distance(view, eye_from_ndc),
+            ..Self::default()
+        }
+    }
+}
+
+/// Largest coordinate that the vertex shader computes with, metres: what rounding goes by.
+fn largest_coordinate(view: &View<'_>) -> f64 {
+    let origin = view.casters.origin();
+    let casters = view.casters.casting().content();
+    let casters = Bounds { min: casters.min - origin, max: casters.max - origin };
+    let center = view.light.shape.center();
+    let light = (center.truncate() - origin).abs().max_element() * center.w;
+    light.max(casters.largest_coordinate())
+}
+
+/// Depth 0…1 in single precision; perspective depth keeps its relative precision, parallel depth does not. In a
+/// paraboloid each texel's depth comes from differences between neighbours, which round more.
+fn rounding(maps: &MapFrame) -> [f32; 2] {
+    match maps.views.first() {
+        Some(view) if view.paraboloid.is_some() => [2e-5, 0.0],
+        Some(view) if view.is_perspective() => [2e-6, 0.0],
+        _ => [0.0, 1e-6],
+    }
+}
+
+/// What storing a linear depth rounds, metres: the same at every distance.
+fn storage_rounding(maps: &MapFrame) -> f64 {
+    let view = maps.views.first().filter(|_| maps.is_linear);
+    view.map_or(0.0, |view| 1e-6 * near(view) / FARTHEST)
+}

@@ -1,0 +1,197 @@
+//! The technique that all of this family are: it fits, draws, runs its stage and looks up.
+
+use super::draw::Drawer;
+use super::fit::{Fitter, Views};
+use super::frame::MapFrame;
+use super::layers::{LAYER_NAMES, Layers};
+use super::lookup::Lookup;
+use super::setup::{Depth, Faces, MapSetup};
+use super::stages::{SplitFitter, Stage};
+use crate::{
+    error::Error,
+    gpu::Gpu,
+    passes::Passes,
+    settings::Settings,
+    shader::Shader,
+    technique::{DebugView, Inside, Stats, Technique},
+    view::View,
+    visibility::VisibilityTarget,
+};
+use umbrage_core::light_view::LightView;
+
+/// A technique that draws depth maps and looks them up in one full-screen pass. Techniques differ in the shader, which needs the module
+/// `map_visibility` and says which share of a point is lit, and in the stage between the two, if they have one.
+pub struct MapTechnique {
+    setup: MapSetup,
+    frame: MapFrame,
+    fit: Fitter,
+    draw: Drawer,
+    /// For splits that are fitted on the GPU.
+    fitter: Option<SplitFitter>,
+    stage: Option<Box<dyn Stage>>,
+    lookup: Lookup,
+    draws: u32,
+}
+
+impl MapTechnique {
+    /// `reach_texels`: how far the shader looks around a receiver in the map. `constants` override the shader's.
+    pub fn new(
+        gpu: &Gpu,
+        setup: &MapSetup,
+        shader: &Shader,
+        reach_texels: f64,
+        constants: &[(&'static str, f64)],
+    ) -> Result<Self, Error> {
+        Self::staged(gpu, setup, shader, reach_texels, constants, None)
+    }
+
+    /// With a stage between the maps and the look-up, whose bind group is group 2 of the shader.
+    pub fn staged(
+        gpu: &Gpu,
+        setup: &MapSetup,
+        shader: &Shader,
+        reach_texels: f64,
+        constants: &[(&'static str, f64)],
+        stage: Option<Box<dyn Stage>>,
+    ) -> Result<Self, Error> {
+        let MapSetup { size, faces, bias, .. } = *setup;
+        gpu.check_size("a shadow map", size, size)?;
+        let fit = Fitter::new(Views::of(setup));
+        let more = stage.as_ref().map(|s| s.layout().clone());
+        let lookup = Lookup::new(gpu, shader, bias, fit.choice.blend(), constants, more);
+        Ok(Self {
+            setup: *setup,
+            frame: MapFrame { size, border_texels: reach_texels + 1.0, ..MapFrame::default() },
+            fitter: fit.choice.is_fitted_to_depth().then(|| SplitFitter::new(gpu, lookup.uniforms())),
+            draw: Drawer::new(gpu, faces == Faces::Back, faces == Faces::Midpoint, caches(setup, &fit.choice)),
+            fit,
+            stage,
+            lookup,
+            draws: 0,
+        })
+    }
+
+    /// Whether the pipelines and the stage are right for `new`, too.
+    fn can_take(&self, new: &MapSetup) -> bool {
+        let fixed = |setup: &MapSetup| {
+            let views = Views::of(setup);
+            (setup.faces, setup.softness, views.blend(), views.is_fitted_to_depth())
+        };
+        let any_size = self.stage.as_ref().is_none_or(|stage| stage.takes_any_size());
+        fixed(&self.setup) == fixed(new) && (any_size || self.setup.size == new.size)
+    }
+
+    /// Looks up in two phases, see `map_quick.wgsl`.
+    pub fn in_phases(mut self) -> Self {
+        self.lookup.in_phases();
+        self
+    }
+
+    /// Keeps room around the maps for what hides the light's rim from receivers at their border.
+    pub fn soft(mut self) -> Self {
+        self.fit.soft = true;
+        self
+    }
+
+    /// Draws the back faces of all casters.
+    pub fn with_back_faces(mut self) -> Self {
+        self.draw.draw_back_faces();
+        self
+    }
+
+    /// Also draws casters into the maps that can shadow nothing.
+    pub fn with_every_caster(mut self) -> Self {
+        self.draw.every_caster = true;
+        self
+    }
+}
+
+impl Technique for MapTechnique {
+    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
+        self.fit.prepare(view, self.setup.depth == Depth::Linear, &mut self.frame);
+        self.draw.prepare(gpu, view, &mut self.frame);
+        if let Some(stage) = &mut self.stage {
+            stage.prepare(gpu, view, &self.frame)?;
+        }
+        self.lookup.prepare(gpu, view, &self.frame);
+        if let (Some(fitter), Some(cascades)) = (&mut self.fitter, self.fit.choice.cascades()) {
+            fitter.prepare(view, &self.frame, cascades);
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+        visibility.check(view.receivers)?;
+        self.lookup.upload(passes);
+        let fitter = self.fitter.as_ref().filter(|_| matches!(self.frame.layers, Layers::Splits(_)));
+        if let Some(fitter) = fitter {
+            fitter.record(passes, view.receivers);
+        }
+        self.draws = self.draw.record(passes, view.casters, &self.frame, fitter.map(SplitFitter::matrices));
+        let mut more = None;
+        if let Some(stage) = &mut self.stage {
+            self.draws += stage.record(passes, &self.frame, view.casters);
+            more = stage.bind_group();
+        }
+        self.draws += self.lookup.record(passes, view.receivers, more, visibility);
+        Ok(())
+    }
+
+    fn set(&mut self, gpu: &Gpu, settings: &Settings) -> Result<bool, Error> {
+        let Some(setup) = settings.maps().filter(|new| self.can_take(new)) else { return Ok(false) };
+        gpu.check_size("a shadow map", setup.size, setup.size)?;
+        self.fit.choice = Views::of(&setup);
+        self.draw.set_cache(caches(&setup, &self.fit.choice));
+        self.lookup.set_bias(setup.bias);
+        self.frame.size = setup.size;
+        self.setup = setup;
+        Ok(true)
+    }
+
+    fn inside(&self) -> &dyn Inside {
+        self
+    }
+
+    fn inside_mut(&mut self) -> &mut dyn Inside {
+        self
+    }
+}
+
+impl Inside for MapTechnique {
+    fn forget(&mut self) {
+        self.draw.forget();
+    }
+
+    fn stats(&self) -> Stats {
+        let mut stats = self.draw.stats(&self.frame);
+        stats.draws = self.draws;
+        stats.triangles += 1;
+        stats.bytes += self.fitter.as_ref().map_or(0, SplitFitter::bytes);
+        stats.bytes += self.lookup.bytes() + self.stage.as_ref().map_or(0, |s| s.bytes());
+        stats
+    }
+
+    fn light_views(&self) -> &[LightView] {
+        &self.frame.views
+    }
+
+    fn split_distances(&self) -> &[f64] {
+        self.frame.borders.get(1..self.frame.borders.len().saturating_sub(1)).unwrap_or_default()
+    }
+
+    fn debug_views(&self) -> Vec<DebugView<'_>> {
+        let Some(texture) = &self.frame.texture else { return Vec::new() };
+        let layers = self.frame.views.iter();
+        let maps = layers.map(|v| DebugView {
+            name: LAYER_NAMES[v.layer as usize % LAYER_NAMES.len()],
+            texture,
+            layer: v.layer,
+        });
+        maps.chain(self.stage.iter().flat_map(|s| s.debug_views())).collect()
+    }
+}
+
+/// Whether maps are kept. What is fitted on the GPU is another view in every frame.
+fn caches(setup: &MapSetup, choice: &Views) -> bool {
+    setup.cache && !choice.is_fitted_to_depth()
+}
