@@ -5,7 +5,7 @@
 //! rasteriser and a ray tracer may see different surfaces there; [`heat`] draws where the errors are.
 //! [`Flicker`] tells what changes at fixed points of the scene while the camera moves, [`seam`] how much worse shadows are around
 //! the borders between maps, and [`aliasing`] how large the texels of maps are on the screen. [`color_scores`] is for finished
-//! pictures.
+//! pictures, [`score_radiance`] for those of radiance.
 
 mod color;
 mod discontinuity;
@@ -15,6 +15,7 @@ mod flip;
 mod footprint;
 mod heat;
 mod interior;
+mod radiance;
 mod score;
 mod seam;
 mod ssim;
@@ -26,5 +27,6 @@ pub use flicker::{FixedPoint, Flicker, Frame, fixed_points};
 pub use footprint::{Aliasing, aliasing, footprint_colors, map_reach, reach_of, texel_footprint};
 pub use heat::heat;
 pub use interior::{REACH_PIXELS, interior};
+pub use radiance::{RadianceComparison, RadianceScores, luminance, score_radiance};
 pub use score::{Comparison, Scores, TOLERANCE, score};
 pub use seam::{around_borders, seam};

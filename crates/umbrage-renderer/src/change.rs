@@ -1,7 +1,7 @@
 //! What of a renderer can change from one frame to the next, without making it anew.
 
-use crate::{LightPass, Renderer, light_of, lit::Lit, no_pass, overlay::Overlay, targets::Targets, twice};
-use umbrage::{Casters, Error, Recorder, Technique};
+use crate::{LightPass, Renderer, light_of, lit::Target, no_pass, overlay::Overlay, targets::Targets, twice};
+use umbrage::{Casters, Error, Recorder, Settings, Technique};
 use umbrage_core::Light;
 
 impl Renderer {
@@ -18,7 +18,7 @@ impl Renderer {
         self.gpu.check_size("the picture", width, height)?;
         self.targets = Targets::new(&self.gpu, &self.shading, &self.tonemap, size);
         for lit in &mut self.lights {
-            lit.resize(&self.gpu, &self.shading, size)?;
+            lit.target = Target::new(&self.gpu, &self.shading, lit.target.answer(), size)?;
         }
         if let Some(overlay) = &mut self.overlay {
             overlay.resize(&self.gpu, size)?;
@@ -27,13 +27,28 @@ impl Renderer {
         Ok(())
     }
 
-    /// From the next frame on `technique` finds the visibility of pass number `pass`; everything else stays, and its light where it is.
+    /// From the next frame on `technique` works for pass number `pass`; everything else stays, and its light where it is.
     ///
     /// # Errors
     /// [`Error::Scene`] where there is no such pass.
     pub fn set_technique(&mut self, pass: usize, technique: Box<dyn Technique>) -> Result<(), Error> {
-        self.lit_mut(pass)?.technique = technique;
-        Ok(())
+        let lit = self.lights.get_mut(pass).ok_or_else(|| no_pass(pass))?;
+        lit.exchange(&self.gpu, &self.shading, technique, self.targets.size()).map(|_| ())
+    }
+
+    /// From the next frame on pass number `pass` works by `settings`, everything else stays. True where its technique took them
+    /// over; else it was made anew, as the settings make it. (What they do not say gets lost then: whoever wraps techniques, as
+    /// [`umbrage::light_samples()`] does, uses [`Renderer::set_technique`].)
+    ///
+    /// # Errors
+    /// What making the technique gives; [`Error::Scene`] where there is no such pass. Then all stays as it was.
+    pub fn set_settings(&mut self, pass: usize, settings: &Settings) -> Result<bool, Error> {
+        let lit = self.lights.get_mut(pass).ok_or_else(|| no_pass(pass))?;
+        if lit.technique.set(&self.gpu, settings)? {
+            return Ok(true);
+        }
+        lit.exchange(&self.gpu, &self.shading, settings.make(&self.gpu)?, self.targets.size())?;
+        Ok(false)
     }
 
     /// Puts `new` in the place of pass number `pass` and gives back what was there. Geometry, targets and pipelines stay;
@@ -46,10 +61,10 @@ impl Renderer {
             return Err(twice(new.light));
         }
         let light = light_of(&self.scene_lights, new.light)?;
-        let lit = self.lit_mut(pass)?;
+        let lit = self.lights.get_mut(pass).ok_or_else(|| no_pass(pass))?;
+        let technique = lit.exchange(&self.gpu, &self.shading, new.technique, self.targets.size())?;
         lit.light = light;
-        let number = std::mem::replace(&mut lit.number, new.light);
-        Ok(LightPass { light: number, technique: std::mem::replace(&mut lit.technique, new.technique) })
+        Ok(LightPass { light: std::mem::replace(&mut lit.number, new.light), technique })
     }
 
     /// Records with `new` from the next frame on and gives back what was in use. Upload memory goes with it, and the GPU times that a
@@ -75,7 +90,9 @@ impl Renderer {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let mut passes = self.recorder.begin(&mut encoder);
         for lit in &self.lights {
-            passes.render("lit", &[lit.visibility.overwrite()], None);
+            if let Target::Visibility(visibility, _) = &lit.target {
+                passes.render("lit", &[visibility.overwrite()], None);
+            }
         }
         passes.finish();
         self.gpu.queue.submit([encoder.finish()]);
@@ -94,9 +111,5 @@ impl Renderer {
     /// The light of pass number `pass`, to move it.
     pub fn light_mut(&mut self, pass: usize) -> Option<&mut Light> {
         self.lights.get_mut(pass).map(|l| &mut l.light)
-    }
-
-    fn lit_mut(&mut self, pass: usize) -> Result<&mut Lit, Error> {
-        self.lights.get_mut(pass).ok_or_else(|| no_pass(pass))
     }
 }

@@ -1,11 +1,10 @@
-//! A renderer over `umbrage`: a G-buffer, each light added under its visibility, tone mapping. It is one consumer of the
+//! A renderer over `umbrage`: a G-buffer, each light added under its visibility (or its radiance as it is), tone mapping. It is one consumer of the
 //! library among others: whatever it uses of it, a host engine may use as well.
 //!
 //! ```no_run
 //! # fn picture(gpu: &umbrage::Gpu, scene: &umbrage::core::Scene) -> Result<(), umbrage::Error> {
 //! use umbrage_renderer::{LightPass, Renderer};
-//! let info = umbrage::find("pcf")?;
-//! let technique = info.make(gpu, &info.settings(&[])?)?;
+//! let technique = umbrage::parse("pcf:kernel=7")?.make(gpu)?;
 //! let mut renderer = Renderer::new(gpu, scene, 640, 480, vec![LightPass { light: 0, technique }])?;
 //! renderer.frame(&scene.camera)?;
 //! let picture = renderer.color()?;
@@ -16,13 +15,14 @@ mod change;
 mod gbuffer;
 mod lit;
 mod overlay;
+mod radiance;
 mod read_back;
 mod shading;
 mod targets;
 mod tonemap;
 
 use gbuffer::GBufferPass;
-use lit::{Lit, Visible};
+use lit::{Lit, Target, Visible};
 use overlay::Overlay;
 use shading::Shading;
 use std::time::{Duration, Instant};
@@ -32,13 +32,13 @@ use umbrage::{Casters, Error, Gpu, Owner, PassTime, Passes, Recorder, Shader, St
 use umbrage_core::{Camera, Light, LightShape, Scene, Texture};
 
 /// Every shader of the renderer, for tests.
-pub const SHADERS: &[Shader] = &[gbuffer::SHADER, overlay::SHADER, shading::SHADER, tonemap::SHADER];
+pub const SHADERS: &[Shader] = &[gbuffer::SHADER, overlay::SHADER, radiance::SHADER, shading::SHADER, tonemap::SHADER];
 
 /// One light and the technique that shadows it.
 pub struct LightPass {
     /// Index into [`Scene::lights`].
     pub light: usize,
-    /// Finds its visibility.
+    /// Finds its visibility, or its radiance.
     pub technique: Box<dyn Technique>,
 }
 
@@ -77,11 +77,12 @@ impl Renderer {
             }
         }
         let lights = lights.into_iter().map(|LightPass { light, technique }| {
-            Lit::new(gpu, &shading, (light, light_of(&scene.lights, light)?), technique, (width, height))
+            let target = Target::new(gpu, &shading, technique.answer(), (width, height))?;
+            Ok(Lit { number: light, light: light_of(&scene.lights, light)?, technique, target })
         });
         let textured = scene.lights.iter().any(|l| matches!(l.shape, LightShape::Rect { texture: Some(_), .. }));
         Ok(Self {
-            lights: lights.collect::<Result<_, _>>()?,
+            lights: lights.collect::<Result<_, Error>>()?,
             gpu: gpu.clone(),
             casters,
             gbuffer: GBufferPass::new(gpu),
@@ -141,7 +142,7 @@ impl Renderer {
         let scene = Visible { camera, receivers, casters: &self.casters, textures: &self.textures };
         let shade = |passes: &mut Passes<'_>, lit: &Lit| {
             passes.owner(Owner::Host("shading"));
-            self.shading.record(passes, &self.targets, &scene.view(&lit.light), &lit.slot);
+            self.shading.record(passes, &self.targets, &scene.view(&lit.light), &lit.target);
         };
         let mut preparing = Duration::ZERO;
         if let Some(overlay) = &self.overlay {
@@ -157,7 +158,7 @@ impl Renderer {
                 let start = Instant::now();
                 lit.technique.prepare(&self.gpu, &view)?;
                 preparing += start.elapsed();
-                lit.technique.record(&mut passes, &view, &lit.visibility)?;
+                lit.target.record(&mut *lit.technique, &mut passes, &view)?;
                 shade(&mut passes, lit);
             }
         }

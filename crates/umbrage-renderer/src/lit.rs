@@ -1,7 +1,7 @@
 //! A light of the picture, and what the views of all lights share.
 
 use crate::shading::{Shading, Slot};
-use umbrage::{Casters, Error, Gpu, Receivers, Technique, View, VisibilityTarget};
+use umbrage::{Answer, Casters, Error, Gpu, Passes, RadianceTarget, Receivers, Technique, View, VisibilityTarget};
 use umbrage_core::{CameraView, Light, Texture};
 
 /// A light, its technique and what came out.
@@ -10,28 +10,60 @@ pub(crate) struct Lit {
     pub number: usize,
     pub light: Light,
     pub technique: Box<dyn Technique>,
-    pub visibility: VisibilityTarget,
-    pub slot: Slot,
+    pub target: Target,
+}
+
+/// Where the answer of a technique goes, and what reads it there.
+pub(crate) enum Target {
+    Visibility(VisibilityTarget, Slot),
+    Radiance(RadianceTarget, wgpu::BindGroup),
+}
+
+impl Target {
+    pub fn new(gpu: &Gpu, shading: &Shading, answer: Answer, (width, height): (u32, u32)) -> Result<Self, Error> {
+        Ok(match answer {
+            Answer::Visibility => {
+                let target = VisibilityTarget::new(gpu, width, height)?;
+                let slot = shading.slot(gpu, &target);
+                Self::Visibility(target, slot)
+            }
+            Answer::Radiance => {
+                let target = RadianceTarget::new(gpu, width, height)?;
+                let read = shading.radiance.bind_group(gpu, &target);
+                Self::Radiance(target, read)
+            }
+        })
+    }
+
+    pub fn answer(&self) -> Answer {
+        match self {
+            Self::Visibility(..) => Answer::Visibility,
+            Self::Radiance(..) => Answer::Radiance,
+        }
+    }
+
+    /// Has `technique` leave its answer.
+    pub fn record(&self, technique: &mut dyn Technique, passes: &mut Passes<'_>, view: &View<'_>) -> Result<(), Error> {
+        match self {
+            Self::Visibility(target, _) => technique.record(passes, view, target),
+            Self::Radiance(target, _) => technique.record_radiance(passes, view, target),
+        }
+    }
 }
 
 impl Lit {
-    pub fn new(
+    /// Gives the light another technique and returns the one that it had. The target stays where it does for both.
+    pub fn exchange(
+        &mut self,
         gpu: &Gpu,
         shading: &Shading,
-        (number, light): (usize, Light),
         technique: Box<dyn Technique>,
-        (width, height): (u32, u32),
-    ) -> Result<Self, Error> {
-        let visibility = VisibilityTarget::new(gpu, width, height)?;
-        let slot = shading.slot(gpu, &visibility);
-        Ok(Self { number, light, technique, visibility, slot })
-    }
-
-    /// From now on for pictures of this size.
-    pub fn resize(&mut self, gpu: &Gpu, shading: &Shading, (width, height): (u32, u32)) -> Result<(), Error> {
-        self.visibility = VisibilityTarget::new(gpu, width, height)?;
-        self.slot = shading.slot(gpu, &self.visibility);
-        Ok(())
+        size: (u32, u32),
+    ) -> Result<Box<dyn Technique>, Error> {
+        if technique.answer() != self.target.answer() {
+            self.target = Target::new(gpu, shading, technique.answer(), size)?;
+        }
+        Ok(std::mem::replace(&mut self.technique, technique))
     }
 }
 

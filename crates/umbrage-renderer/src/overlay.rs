@@ -4,7 +4,7 @@
 use crate::lit::{Lit, Visible};
 use crate::targets::WIDE;
 use umbrage::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, attachment, bind, layout};
-use umbrage::{Error, Gpu, Owner, Passes, Shader, VisibilityTarget};
+use umbrage::{Answer, Error, Gpu, Owner, Passes, Shader, VisibilityTarget};
 use umbrage_core::Light;
 
 /// The shader.
@@ -47,6 +47,9 @@ impl Overlay {
         scene: &Visible<'_>,
         lights: &mut [Lit],
     ) -> Result<(), Error> {
+        if let Some(lit) = lights.iter().find(|lit| lit.target.answer() != Answer::Visibility) {
+            return lit.target.answer().refuse();
+        }
         let shapes: Vec<Light> = lights.iter().map(|lit| lit.light.clone()).collect();
         let views: Vec<_> = shapes.iter().map(|light| scene.view(light)).collect();
         let Some(first) = lights.first_mut() else { return Ok(()) };

@@ -1,7 +1,7 @@
 //! What a renderer hands out: its picture, and what it is made of, read back for files and tests.
 
-use crate::{Renderer, no_pass};
-use umbrage::{DebugView, Error, read};
+use crate::{Renderer, lit::Target, no_pass};
+use umbrage::{Answer, DebugView, Error, read};
 use umbrage_core::{Camera, Image};
 
 impl Renderer {
@@ -27,10 +27,27 @@ impl Renderer {
     /// The visibility that pass number `pass` left, 0…1. What non-receiving surfaces hold means nothing.
     ///
     /// # Errors
-    /// [`Error::Scene`] where there is no such pass.
+    /// [`Error::Scene`] where there is no such pass; [`Error::Unsupported`] where it answers with radiance.
     pub fn visibility(&self, pass: usize) -> Result<Image<f32>, Error> {
-        let lit = self.lights.get(pass).ok_or_else(|| no_pass(pass))?;
-        lit.visibility.read(&self.gpu)
+        match self.target(pass)? {
+            Target::Visibility(target, _) => target.read(&self.gpu),
+            Target::Radiance(..) => Answer::Radiance.refuse(),
+        }
+    }
+
+    /// The radiance that pass number `pass` left, red, green and blue.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where there is no such pass; [`Error::Unsupported`] where it answers with visibility.
+    pub fn radiance(&self, pass: usize) -> Result<Image<[f32; 3]>, Error> {
+        match self.target(pass)? {
+            Target::Radiance(target, _) => target.read(&self.gpu),
+            Target::Visibility(..) => Answer::Visibility.refuse(),
+        }
+    }
+
+    fn target(&self, pass: usize) -> Result<&Target, Error> {
+        self.lights.get(pass).map(|lit| &lit.target).ok_or_else(|| no_pass(pass))
     }
 
     /// Depth along the view direction in metres, 0 where nothing is.

@@ -1,5 +1,7 @@
 //! Adds one light under its visibility: the standard lighting model (PX 2.2.4), per pixel.
 
+use crate::lit::Target;
+use crate::radiance::RadiancePass;
 use crate::targets::{GBuffer, Targets, WIDE};
 use umbrage::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout};
 use umbrage::{Eye, Gpu, Passes, Receivers, Shader, View, VisibilityTarget, shader_struct};
@@ -32,6 +34,8 @@ pub(crate) struct Shading {
     pipeline: wgpu::RenderPipeline,
     surface_layout: wgpu::BindGroupLayout,
     light_layout: wgpu::BindGroupLayout,
+    /// For techniques that leave nothing to shade.
+    pub radiance: RadiancePass,
 }
 
 /// What one light needs of its own.
@@ -55,7 +59,7 @@ impl Shading {
             constants: &[],
         }
         .pipeline(gpu);
-        Self { pipeline, surface_layout, light_layout }
+        Self { pipeline, surface_layout, light_layout, radiance: RadiancePass::new(gpu) }
     }
 
     /// What is read of a G-buffer.
@@ -72,7 +76,15 @@ impl Shading {
         Slot { uniforms, bind_group }
     }
 
-    pub fn record(&self, passes: &mut Passes<'_>, targets: &Targets, view: &View<'_>, slot: &Slot) {
+    /// Adds the light of `view`, by the answer of its technique.
+    pub fn record(&self, passes: &mut Passes<'_>, targets: &Targets, view: &View<'_>, answer: &Target) {
+        match answer {
+            Target::Visibility(_, slot) => self.record_light(passes, targets, view, slot),
+            Target::Radiance(_, read) => self.radiance.record(passes, &targets.gbuffer.radiance_view, read),
+        }
+    }
+
+    fn record_light(&self, passes: &mut Passes<'_>, targets: &Targets, view: &View<'_>, slot: &Slot) {
         passes.upload(&slot.uniforms, bytemuck::bytes_of(&light_uniforms(view)));
         let target = attachment(&targets.gbuffer.radiance_view, wgpu::LoadOp::Load);
         let mut pass = passes.render("light", &[target], None);

@@ -2,7 +2,7 @@
 
 use umbrage::core::{Image, Scene};
 use umbrage::fullscreen::{self, FLOATS, Fullscreen, attachment, bind, layout, target_texture};
-use umbrage::{Error, Gpu, Recorder, Shader, Technique, find, read, techniques};
+use umbrage::{Error, Gpu, Param, ParamKind, Recorder, Shader, Technique, TechniqueInfo, find, read, techniques};
 use umbrage_renderer::{LightPass, Renderer};
 use wgpu::TextureFormat;
 
@@ -129,6 +129,58 @@ fn a_new_technique_for_one_light_leaves_the_others() {
     assert_eq!(kept.visibility(0).unwrap(), of_first);
     let error = kept.set_technique(2, make(&gpu, "none", &[])).unwrap_err();
     assert!(error.to_string().contains("no light pass 2"), "{error}");
+}
+
+/// Another value than the default.
+fn other_value(info: &TechniqueInfo, param: &Param) -> String {
+    match param.kind {
+        // Powers of two: some parameters take nothing else.
+        ParamKind::Int { min, default, .. } => if default / 2 >= min { default / 2 } else { 2 * default }.to_string(),
+        ParamKind::Float { min, max, default } => (0.5 * default + 0.5 * (default + 1.0).min(max)).max(min).to_string(),
+        ParamKind::Choice { values } => values.last().unwrap().to_string(),
+        ParamKind::Switch { default } => if default { "off" } else { "on" }.to_string(),
+        ParamKind::Filter { .. } => panic!("{} {}: a filter is another technique", info.id, param.name),
+    }
+}
+
+#[test]
+fn a_new_setting_is_like_a_new_renderer() {
+    let gpu = gpu();
+    let scene = scene("primitives");
+    let mut taken_over = 0;
+    for info in techniques().iter().filter(|info| info.lights.contains(scene.lights[0].shape.kind())) {
+        let mut kept = renderer(&gpu, &scene, &[info.id], FIRST);
+        let before = color(&mut kept, &scene);
+        // One more at a time, each drawn.
+        let mut set = Vec::new();
+        for param in info.params().iter().filter(|p| p.live) {
+            set.push((param.name.to_string(), other_value(info, param)));
+            taken_over += u32::from(kept.set_settings(0, &info.settings(&set).unwrap()).unwrap());
+            kept.frame(&scene.camera).unwrap();
+        }
+        let passes = vec![LightPass { light: 0, technique: info.settings(&set).unwrap().make(&gpu).unwrap() }];
+        let mut anew = Renderer::new(&gpu, &scene, FIRST.0, FIRST.1, passes).unwrap();
+        assert_eq!(color(&mut kept, &scene), color(&mut anew, &scene), "{} {set:?}", info.id);
+        kept.set_settings(0, &info.default_settings()).unwrap();
+        assert_eq!(color(&mut kept, &scene), before, "{} as it was", info.id);
+    }
+    assert!(taken_over > 20, "{taken_over} settings were taken over without making the technique anew");
+}
+
+#[test]
+fn settings_of_another_technique_make_that_one() {
+    let gpu = gpu();
+    let scene = scene("primitives");
+    let mut kept = renderer(&gpu, &scene, &["volume", "none"], FIRST);
+    let settings = find("pcf").unwrap().settings(&[("kernel".into(), "5".into())]).unwrap();
+    assert_eq!(kept.set_settings(1, &settings), Ok(false));
+    let passes = vec![
+        LightPass { light: 0, technique: make(&gpu, "volume", &[]) },
+        LightPass { light: 1, technique: make(&gpu, "pcf", &[("kernel", "5")]) },
+    ];
+    let mut anew = Renderer::new(&gpu, &scene, FIRST.0, FIRST.1, passes).unwrap();
+    assert_eq!(color(&mut kept, &scene), color(&mut anew, &scene));
+    assert!(kept.set_settings(2, &settings).is_err());
 }
 
 #[test]

@@ -34,6 +34,7 @@
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
+mod answer;
 mod area_light;
 pub mod baseline;
 mod casters;
@@ -55,8 +56,8 @@ pub mod techniques;
 mod view;
 mod visibility;
 
+pub use answer::{Answer, RadianceTarget};
 pub use casters::{Casters, SeenCasters};
-
 pub use error::{Error, nearest};
 pub use gpu::{AdapterSummary, Gpu};
 pub use light_samples::light_samples;

@@ -34,6 +34,15 @@ pub fn one_channel(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Result<Ima
     Ok(image(texture, data))
 }
 
+/// Red, green and blue of `Rgba16Float`.
+///
+/// # Errors
+/// See the module.
+pub fn half_colors(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[f32; 3]>, Error> {
+    let values = halves(&rows(gpu, texture, 0)?);
+    Ok(image(texture, values.as_chunks::<4>().0.iter().map(|&[r, g, b, _]| [r, g, b]).collect()))
+}
+
 /// Unit vectors that `pack_normal` packed, see [`crate::wgsl::PACK_NORMAL`].
 ///
 /// # Errors

@@ -1,11 +1,13 @@
 //! What a technique is.
 
 use crate::{
-    Error, FilterUse, Gpu, Param, Passes, Registry, Settings, Shader, View, VisibilityTarget, settings::Configure,
+    Answer, Error, FilterUse, Gpu, Param, Passes, RadianceTarget, Registry, Settings, Shader, View, VisibilityTarget,
+    settings::Configure,
 };
 use umbrage_core::{LightKind, LightKinds, light_view::LightView};
 
-/// Finds which share of one light each visible point sees.
+/// Finds which share of one light each visible point sees; or else what light goes from there to the eye because of it, see
+/// [`Answer`].
 ///
 /// A frame is `prepare`, then `record`; both with the same view.
 pub trait Technique: Send {
@@ -29,6 +31,25 @@ pub trait Technique: Send {
     /// [`Error::Size`] beyond the device's limits.
     fn set(&mut self, _gpu: &Gpu, _settings: &Settings) -> Result<bool, Error> {
         Ok(false)
+    }
+
+    /// What it answers: the share of its light that points see, unless it says otherwise.
+    fn answer(&self) -> Answer {
+        Answer::Visibility
+    }
+
+    /// In place of [`Technique::record`] where the [answer](Technique::answer) is radiance: records the passes that leave in
+    /// `radiance` the light that goes from each visible point to the eye. Such a technique [refuses](Answer::refuse) `record`.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] where the answer is visibility, and as [`Technique::prepare`].
+    fn record_radiance(
+        &mut self,
+        _passes: &mut Passes<'_>,
+        _view: &View<'_>,
+        _radiance: &RadianceTarget,
+    ) -> Result<(), Error> {
+        self.answer().refuse()
     }
 
     /// In place of `prepare` and `record` of one light: leaves 0 in `visibility` where a point is in the shadow of any of the
@@ -176,12 +197,13 @@ pub struct TechniqueInfo {
 pub struct SettingsOf {
     params: fn() -> &'static [Param],
     default: fn() -> Settings,
+    answer: Answer,
 }
 
 impl SettingsOf {
     /// Those of `T`.
     pub const fn new<T: Configure>() -> Self {
-        Self { params: T::params, default: || T::default().into() }
+        Self { params: T::params, default: || T::default().into(), answer: T::ANSWER }
     }
 }
 
@@ -195,6 +217,11 @@ impl TechniqueInfo {
     /// Its parameters.
     pub fn params(&self) -> &'static [Param] {
         (self.settings.params)()
+    }
+
+    /// What it answers; as [`Technique::answer`] before there is one.
+    pub fn answer(&self) -> Answer {
+        self.settings.answer
     }
 
     /// Every parameter at its default.

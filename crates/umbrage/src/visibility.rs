@@ -35,13 +35,7 @@ impl VisibilityTarget {
     /// # Errors
     /// [`Error::Scene`] with both sizes.
     pub fn check(&self, receivers: &Receivers) -> Result<(), Error> {
-        if self.size == receivers.size {
-            return Ok(());
-        }
-        let ((w, h), (x, y)) = (self.size, receivers.size);
-        Err(Error::Scene(format!(
-            "the visibility target is {w}×{h} but the receivers are {x}×{y}; make both of one size"
-        )))
+        same_size("visibility", self.size, receivers.size)
     }
 
     /// A colour attachment that keeps what a full-screen pass leaves; nothing of the old content is read.
@@ -61,4 +55,12 @@ impl VisibilityTarget {
     pub fn bytes(&self) -> u64 {
         u64::from(self.size.0) * u64::from(self.size.1) * 2
     }
+}
+
+/// That a target is as large as the receivers.
+pub(crate) fn same_size(what: &str, (w, h): (u32, u32), (x, y): (u32, u32)) -> Result<(), Error> {
+    if (w, h) == (x, y) {
+        return Ok(());
+    }
+    Err(Error::Scene(format!("the {what} target is {w}×{h} but the receivers are {x}×{y}; make both of one size")))
 }

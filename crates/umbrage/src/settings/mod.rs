@@ -10,7 +10,7 @@ mod param;
 use crate::depth_maps::MapSetup;
 use crate::error::{Error, nearest};
 use crate::registry::{Filter, Registry};
-use crate::{Gpu, Technique, TechniqueInfo};
+use crate::{Answer, Gpu, Technique, TechniqueInfo};
 pub use declare::{Group, Setting};
 pub use param::{Param, ParamKind, Value};
 use std::fmt::{self, Debug};
@@ -19,6 +19,9 @@ use std::fmt::{self, Debug};
 pub trait Configure: Group + Clone + Default + Debug + Send + Sync + 'static {
     /// What the program knows of the technique.
     const INFO: &'static TechniqueInfo;
+
+    /// What the technique answers; as its [`Technique::answer`].
+    const ANSWER: Answer = Answer::Visibility;
 
     /// Makes the technique; values are in range and the device has what [`Configure::INFO`] asks for.
     ///
