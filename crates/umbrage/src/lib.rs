@@ -68,7 +68,7 @@ pub use registry::{Filter, FilterId, FilterUse, Registry, find, parse, technique
 pub use settings::declare;
 pub use settings::{Configure, Group, Param, ParamKind, Setting, Settings, Value, read as read_settings};
 pub use shader::{HostConstant, HostLayout, Module, Shader, Shared, Unresolved};
-pub use technique::{DebugView, Family, Inside, SettingsOf, Stats, Technique, TechniqueInfo};
+pub use technique::{DebugView, Family, Inside, SettingsOf, Stats, Technique, TechniqueInfo, storage_buffers};
 pub use techniques::{RENAMED, Renamed};
 
 pub use umbrage_core as core;

@@ -180,6 +180,8 @@ pub struct TechniqueInfo {
     pub lights: LightKinds,
     /// Features it can't do without.
     pub features: wgpu::Features,
+    /// Raises limits to what it can't do without, such as [`storage_buffers`].
+    pub limits: fn(&mut wgpu::Limits),
     /// True where it gives 0 or 1 from one point of the light, so that `light_samples` makes sense.
     pub hard: bool,
     /// Its settings, see [`SettingsOf::new`].
@@ -190,6 +192,11 @@ pub struct TechniqueInfo {
     pub shaders: &'static [Shader],
     /// Its README.
     pub readme: &'static str,
+}
+
+/// For [`TechniqueInfo::limits`]: so many storage buffers in one stage of a shader. WebGPU promises eight.
+pub fn storage_buffers<const COUNT: u32>(limits: &mut wgpu::Limits) {
+    limits.max_storage_buffers_per_shader_stage = COUNT;
 }
 
 /// The type of a technique's settings.
@@ -243,11 +250,20 @@ impl TechniqueInfo {
     /// # Errors
     /// [`Error::Unsupported`] naming what is lacking.
     pub fn check(&self, gpu: &Gpu) -> Result<(), Error> {
-        if gpu.has(self.features) {
-            return Ok(());
+        if !gpu.has(self.features) {
+            return self.refuse(format!("which lacks {:?}", self.features - gpu.device.features()));
         }
-        let what = format!("this adapter, which lacks {:?}", self.features - gpu.device.features());
-        Err(Error::Unsupported { technique: self.id.into(), what })
+        let (limits, mut needed) = (gpu.device.limits(), gpu.device.limits());
+        (self.limits)(&mut needed);
+        let mut lacking = Vec::new();
+        needed.check_limits_with_fail_fn(&limits, false, |name, needed, limit| {
+            lacking.push(format!("whose {name} is {limit} and has to be {needed}"));
+        });
+        if lacking.is_empty() { Ok(()) } else { self.refuse(lacking.join(", ")) }
+    }
+
+    fn refuse(&self, lack: String) -> Result<(), Error> {
+        Err(Error::Unsupported { technique: self.id.into(), what: format!("this adapter, {lack}") })
     }
 
     /// Whether it can do lights of this kind.

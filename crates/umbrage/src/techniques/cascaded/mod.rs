@@ -6,7 +6,7 @@ use crate::depth_maps::{
     Blend, Fitting, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS, SPLIT_FIT_SHADER, Softness, Splits,
 };
 use crate::settings::Configure;
-use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, FilterId, Gpu, choices, settings};
 use umbrage_core::light_view::{Cascades, Cover};
 
@@ -62,6 +62,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     filter: None,
     lights: LIGHTS,
     features: wgpu::Features::empty(),
+    limits: storage_buffers::<3>,
     hard: false,
     settings: SettingsOf::new::<Cascaded>(),
     views: &LAYER_NAMES,

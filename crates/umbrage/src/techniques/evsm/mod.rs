@@ -8,7 +8,7 @@ mod soft;
 use crate::depth_maps::{BOUNDS_SHADER, Cover, Depth, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS};
 use crate::moment_maps::Filtering;
 use crate::settings::Configure;
-use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, choices, settings};
 
 choices! {
@@ -65,6 +65,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
+    limits: storage_buffers::<3>,
     hard: false,
     settings: SettingsOf::new::<Evsm>(),
     views: &LAYER_NAMES,

@@ -12,7 +12,7 @@ mod technique;
 mod tree;
 
 use crate::settings::Configure;
-use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu, settings};
 use umbrage_core::LightKinds;
 
@@ -37,6 +37,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     filter: None,
     lights: LightKinds::ALL,
     features: wgpu::Features::empty(),
+    limits: storage_buffers::<6>,
     hard: false,
     settings: SettingsOf::new::<LightMask>(),
     views: &[],

@@ -6,7 +6,7 @@ use crate::{
     passes::Passes,
     settings,
     settings::Configure,
-    technique::{Family, Inside, SettingsOf, Stats, Technique, TechniqueInfo},
+    technique::{Family, Inside, SettingsOf, Stats, Technique, TechniqueInfo, storage_buffers},
     view::View,
     visibility::VisibilityTarget,
 };
@@ -35,6 +35,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     filter: None,
     lights: LightKinds::ALL,
     features: wgpu::Features::empty(),
+    limits: storage_buffers::<0>,
     hard: false,
     settings: SettingsOf::new::<NoShadow>(),
     views: &[],

@@ -5,7 +5,7 @@
 use crate::depth_maps::{Cover, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Softness, Storage};
 use crate::settings::Configure;
 use crate::shader::Shader;
-use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, settings};
 
 const SHADER: Shader = Shader::new("pcf", include_str!("pcf.wgsl"));
@@ -36,6 +36,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
+    limits: storage_buffers::<2>,
     hard: false,
     settings: SettingsOf::new::<Pcf>(),
     views: &LAYER_NAMES,

@@ -10,7 +10,7 @@ mod tiles;
 use crate::depth_maps::{Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage};
 use crate::settings::Configure;
 use crate::shader::{Module, Shader};
-use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, choices, settings};
 use blur::{Blur, ScreenBlur};
 use technique::Blurred;
@@ -73,6 +73,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
+    limits: storage_buffers::<3>,
     hard: false,
     settings: SettingsOf::new::<PcfBlur>(),
     views: &LAYER_NAMES,

@@ -7,7 +7,7 @@ use crate::depth_maps::{
 };
 use crate::settings::Configure;
 use crate::shader::Shader;
-use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, settings};
 
 const SHADER: Shader = Shader::new("pcf-jitter", include_str!("pcf_jitter.wgsl"));
@@ -40,6 +40,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
+    limits: storage_buffers::<2>,
     hard: false,
     settings: SettingsOf::new::<PcfJitter>(),
     views: &LAYER_NAMES,

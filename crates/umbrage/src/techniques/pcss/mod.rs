@@ -7,7 +7,7 @@ use crate::depth_maps::{
 };
 use crate::settings::Configure;
 use crate::shader::Shader;
-use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, settings};
 
 const SHADER: Shader = Shader::new("pcss", include_str!("pcss.wgsl"));
@@ -37,6 +37,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     filter: Some(FilterUse { warped: false }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
+    limits: storage_buffers::<3>,
     hard: false,
     settings: SettingsOf::new::<Pcss>(),
     views: &LAYER_NAMES,

@@ -8,7 +8,7 @@ use crate::depth_maps::{
 };
 use crate::settings::Configure;
 use crate::shader::Shader;
-use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, settings};
 
 const SHADER: Shader = Shader::new("pcss-jitter", include_str!("pcss_jitter.wgsl"));
@@ -41,6 +41,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     filter: Some(FilterUse { warped: false }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
+    limits: storage_buffers::<3>,
     hard: false,
     settings: SettingsOf::new::<PcssJitter>(),
     views: &LAYER_NAMES,

@@ -4,7 +4,7 @@
 
 use crate::depth_maps::{Fitting, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS, Softness};
 use crate::settings::Configure;
-use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, FilterId, Gpu, choices, settings};
 use umbrage_core::light_view::Warp;
 
@@ -45,6 +45,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     filter: None,
     lights: LIGHTS,
     features: wgpu::Features::empty(),
+    limits: storage_buffers::<2>,
     hard: false,
     settings: SettingsOf::new::<Psm>(),
     views: &LAYER_NAMES,

@@ -5,7 +5,7 @@
 use crate::depth_maps::{Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage};
 use crate::settings::Configure;
 use crate::shader::Shader;
-use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, settings};
 
 const SHADER: Shader = Shader::new("shadow-map", include_str!("shadow_map.wgsl"));
@@ -29,6 +29,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
+    limits: storage_buffers::<2>,
     hard: true,
     settings: SettingsOf::new::<ShadowMap>(),
     views: &LAYER_NAMES,

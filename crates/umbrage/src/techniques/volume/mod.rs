@@ -17,7 +17,7 @@ use crate::settings::Configure;
 use crate::shader::Shader;
 pub use crate::silhouettes::Extrude;
 use crate::silhouettes::FIND_SHADER;
-use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu, settings};
 pub use options::{Count, Counter, Culls, Parallel, Reach, Stencil};
 use umbrage_core::LightKinds;
@@ -87,6 +87,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     filter: None,
     lights: LightKinds::ALL,
     features: wgpu::Features::empty(),
+    limits: storage_buffers::<7>,
     hard: true,
     settings: SettingsOf::new::<Volume>(),
     views: views::NAMES,

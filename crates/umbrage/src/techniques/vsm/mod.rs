@@ -6,7 +6,7 @@ use crate::depth_maps::{Cover, Depth, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTec
 use crate::moment_maps::{Coding, Filtering, MomentStage, Recipe};
 use crate::settings::Configure;
 use crate::shader::{Module, Shader};
-use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, settings};
 
 const MODULES: &[Module] = &[
@@ -44,6 +44,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
+    limits: storage_buffers::<2>,
     hard: false,
     settings: SettingsOf::new::<Vsm>(),
     views: &LAYER_NAMES,

@@ -22,7 +22,7 @@ mod way;
 use crate::settings::Configure;
 use crate::shader::Shader;
 use crate::silhouettes::FIND_SHADER;
-use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo};
+use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu, settings};
 pub use options::{Batch, Combine, Coverage, Cull, Scale};
 use umbrage_core::LightKinds;
@@ -69,6 +69,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     filter: None,
     lights: LightKinds::ALL,
     features: wgpu::Features::empty(),
+    limits: storage_buffers::<8>,
     hard: false,
     settings: SettingsOf::new::<Wedges>(),
     views: views::NAMES,
