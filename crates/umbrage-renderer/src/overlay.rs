@@ -4,6 +4,7 @@
 use crate::lit::{Lit, Visible};
 use crate::targets::WIDE;
 use umbrage::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, attachment, bind, layout};
+use umbrage::techniques::volume::record_overlay;
 use umbrage::{Answer, Error, Gpu, Owner, Passes, Shader, VisibilityTarget};
 use umbrage_core::Light;
 
@@ -54,7 +55,7 @@ impl Overlay {
         let views: Vec<_> = shapes.iter().map(|light| scene.view(light)).collect();
         let Some(first) = lights.first_mut() else { return Ok(()) };
         passes.owner(Owner::Light(first.number));
-        first.technique.record_overlay(gpu, passes, &views, &self.visibility)
+        record_overlay(&mut *first.technique, gpu, passes, &views, &self.visibility)
     }
 
     /// Darkens that.

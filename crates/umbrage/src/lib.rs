@@ -45,6 +45,8 @@ mod gpu;
 mod light_samples;
 mod moment_maps;
 mod passes;
+#[cfg(test)]
+mod probe;
 pub mod read;
 mod receivers;
 mod registry;

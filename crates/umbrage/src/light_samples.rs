@@ -199,3 +199,14 @@ fn pipeline(
     let target = if entry == "add" { additive(format) } else { format.into() };
     Fullscreen { label: entry, module, entry, groups: &[layout], target, constants }.pipeline(gpu)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::probe::assert_forwards;
+
+    #[test]
+    fn all_that_is_inside_a_technique_is_inside_the_mean_of_its_samples() {
+        assert_forwards(|gpu, inner| Box::new(LightSamples::new(gpu, inner, 4)));
+    }
+}

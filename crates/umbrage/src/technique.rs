@@ -4,13 +4,14 @@ use crate::{
     Answer, Error, FilterUse, Gpu, Param, Passes, RadianceTarget, Registry, Settings, Shader, View, VisibilityTarget,
     settings::Configure,
 };
+use std::any::Any;
 use umbrage_core::{LightKind, LightKinds, light_view::LightView};
 
 /// Finds which share of one light each visible point sees; or else what light goes from there to the eye because of it, see
 /// [`Answer`].
 ///
 /// A frame is `prepare`, then `record`; both with the same view.
-pub trait Technique: Send {
+pub trait Technique: Any + Send {
     /// Everything the CPU does for this frame: fits light views, chooses casters, makes room. Creates GPU objects only
     /// in the first frame and when a size or the kind of light changes.
     ///
@@ -50,23 +51,6 @@ pub trait Technique: Send {
         _radiance: &RadianceTarget,
     ) -> Result<(), Error> {
         self.answer().refuse()
-    }
-
-    /// In place of `prepare` and `record` of one light: leaves 0 in `visibility` where a point is in the shadow of any of the
-    /// views' lights, else 1. Known to be wrong for more than one light, and kept to be compared with (PX 3.4). The views differ in
-    /// nothing but the light.
-    ///
-    /// # Errors
-    /// [`Error::Unsupported`] for a technique that does not know this, and as [`Technique::prepare`].
-    fn record_overlay(
-        &mut self,
-        _gpu: &Gpu,
-        _passes: &mut Passes<'_>,
-        _views: &[View<'_>],
-        _visibility: &VisibilityTarget,
-    ) -> Result<(), Error> {
-        let (technique, what) = ("this technique".into(), "the overlay of all lights at once; choose `volume`".into());
-        Err(Error::Unsupported { technique, what })
     }
 
     /// What is inside, for those who measure and look.

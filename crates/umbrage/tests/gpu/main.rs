@@ -13,6 +13,7 @@ mod pcf_blur;
 mod penumbra;
 mod poses;
 mod robust;
+mod settings;
 mod shared_references;
 mod solids;
 mod steady;

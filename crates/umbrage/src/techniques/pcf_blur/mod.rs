@@ -113,6 +113,6 @@ impl Filter for PcfBlur {
         let constants = [("IS_HARD", f64::from(u8::from(is_hard))), ("OWN_SHADOW", OWN_SHADOW)];
         let source = MapTechnique::new(gpu, maps, &SOURCE_SHADER, reach, &constants)?;
         let blur = (self.radius > 0.0).then(|| ScreenBlur::new(gpu, self.radius, self.depth_aware));
-        Ok(Box::new(Blurred::new(source, blur)))
+        Ok(Box::new(Blurred::new(Box::new(source), blur)))
     }
 }

@@ -1,19 +1,18 @@
 //! A frame: maps, visibility, blur.
 
 use super::blur::ScreenBlur;
-use crate::depth_maps::MapTechnique;
 use crate::technique::{DebugView, Inside, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, settings::Settings, view::View, visibility::VisibilityTarget};
 use umbrage_core::light_view::LightView;
 
 pub(super) struct Blurred {
-    source: MapTechnique,
+    source: Box<dyn Technique>,
     /// None for a radius of 0.
     blur: Option<ScreenBlur>,
 }
 
 impl Blurred {
-    pub(super) fn new(source: MapTechnique, blur: Option<ScreenBlur>) -> Self {
+    pub(super) fn new(source: Box<dyn Technique>, blur: Option<ScreenBlur>) -> Self {
         Self { source, blur }
     }
 }
@@ -51,7 +50,7 @@ impl Technique for Blurred {
 /// All of it is the source's, but for what the blur costs.
 impl Inside for Blurred {
     fn stats(&self) -> Stats {
-        let mut stats = self.source.stats();
+        let mut stats = self.source.inside().stats();
         if let Some(blur) = &self.blur {
             stats.draws += 1;
             stats.triangles += blur.triangles();
@@ -61,26 +60,37 @@ impl Inside for Blurred {
     }
 
     fn forget(&mut self) {
-        self.source.forget();
+        self.source.inside_mut().forget();
     }
 
     fn light_views(&self) -> &[LightView] {
-        self.source.light_views()
+        self.source.inside().light_views()
     }
 
     fn split_distances(&self) -> &[f64] {
-        self.source.split_distances()
+        self.source.inside().split_distances()
     }
 
     fn counts(&self) -> Vec<(&'static str, u64)> {
-        self.source.counts()
+        self.source.inside().counts()
     }
 
     fn inspect(&mut self, view: Option<&str>) {
-        self.source.inspect(view);
+        self.source.inside_mut().inspect(view);
     }
 
     fn debug_views(&self) -> Vec<DebugView<'_>> {
-        self.source.debug_views()
+        self.source.inside().debug_views()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::probe::assert_forwards;
+
+    #[test]
+    fn all_that_is_inside_the_source_is_inside_the_blur() {
+        assert_forwards(|_, source| Box::new(Blurred::new(source, None)));
     }
 }

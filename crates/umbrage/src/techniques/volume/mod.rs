@@ -18,8 +18,9 @@ use crate::shader::Shader;
 pub use crate::silhouettes::Extrude;
 use crate::silhouettes::FIND_SHADER;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
-use crate::{Error, Gpu, settings};
+use crate::{Error, Gpu, Passes, View, VisibilityTarget, settings};
 pub use options::{Count, Counter, Culls, Parallel, Reach, Stencil};
+use std::any::Any;
 use umbrage_core::LightKinds;
 
 const COUNT_SHADER: Shader = Shader::new("volumes", include_str!("count.wgsl"));
@@ -101,4 +102,24 @@ impl Configure for Volume {
     fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
         Ok(Box::new(technique::Volume::new(gpu, self)))
     }
+}
+
+/// The single-pass algorithm (PX 3.4): leaves 0 in `visibility` where a point is in the shadow of any of the views' lights,
+/// else 1. It is wrong for more than one light, and kept to be compared with. The views differ in nothing but the light.
+///
+/// # Errors
+/// [`Error::Unsupported`] for any other technique than `volume`, and as [`Technique::prepare`].
+pub fn record_overlay(
+    volume: &mut dyn Technique,
+    gpu: &Gpu,
+    passes: &mut Passes<'_>,
+    views: &[View<'_>],
+    visibility: &VisibilityTarget,
+) -> Result<(), Error> {
+    let any: &mut dyn Any = volume;
+    let Some(volume) = any.downcast_mut::<technique::Volume>() else {
+        let (technique, what) = ("this technique".into(), "the overlay of all lights at once; choose `volume`".into());
+        return Err(Error::Unsupported { technique, what });
+    };
+    volume.overlay(gpu, passes, views, visibility)
 }

@@ -149,40 +149,9 @@ impl Volume {
         }
         Ok(())
     }
-}
 
-impl Technique for Volume {
-    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
-        let light = self.choose(gpu, view)?;
-        let is_lit = self.selection.throws.is_empty();
-        if let Some(edges) = view.casters.made_edges().filter(|_| !is_lit) {
-            self.kind = self.choose_counter(gpu, view.receivers, edges.layers)?;
-            self.make_ready(gpu, view, light)?;
-        }
-        if let Some(views) = &mut self.views {
-            views.prepare(gpu, view, &self.silhouettes, self.counter.counts().filter(|_| !is_lit));
-        }
-        Ok(())
-    }
-
-    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
-        visibility.check(view.receivers)?;
-        self.draws = 0;
-        let edges = view.casters.made_edges();
-        match edges.filter(|_| !self.selection.throws.is_empty()) {
-            Some(edges) => {
-                self.draws = self.count_volumes(passes, view, edges, Some(self.selection.eye_count)) + 1;
-                self.resolve(passes, visibility);
-            }
-            None => drop(passes.render("visibility", &[visibility.overwrite()], None)),
-        }
-        if let Some(views) = &mut self.views {
-            views.record(&self.gpu, passes, view, &self.silhouettes, edges, &self.selection);
-        }
-        Ok(())
-    }
-
-    fn record_overlay(
+    /// See [`super::record_overlay`].
+    pub(super) fn overlay(
         &mut self,
         gpu: &Gpu,
         passes: &mut Passes<'_>,
@@ -212,6 +181,38 @@ impl Technique for Volume {
         } else {
             self.draws += 1;
             self.resolve(passes, visibility);
+        }
+        Ok(())
+    }
+}
+
+impl Technique for Volume {
+    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
+        let light = self.choose(gpu, view)?;
+        let is_lit = self.selection.throws.is_empty();
+        if let Some(edges) = view.casters.made_edges().filter(|_| !is_lit) {
+            self.kind = self.choose_counter(gpu, view.receivers, edges.layers)?;
+            self.make_ready(gpu, view, light)?;
+        }
+        if let Some(views) = &mut self.views {
+            views.prepare(gpu, view, &self.silhouettes, self.counter.counts().filter(|_| !is_lit));
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+        visibility.check(view.receivers)?;
+        self.draws = 0;
+        let edges = view.casters.made_edges();
+        match edges.filter(|_| !self.selection.throws.is_empty()) {
+            Some(edges) => {
+                self.draws = self.count_volumes(passes, view, edges, Some(self.selection.eye_count)) + 1;
+                self.resolve(passes, visibility);
+            }
+            None => drop(passes.render("visibility", &[visibility.overwrite()], None)),
+        }
+        if let Some(views) = &mut self.views {
+            views.record(&self.gpu, passes, view, &self.silhouettes, edges, &self.selection);
         }
         Ok(())
     }

@@ -4,8 +4,8 @@ use super::pipelines::Pipelines;
 use super::records::{BUNDLE, BUNDLE_RECORD, CAP_RECORD, GROUP, RECORD};
 use super::select::CHUNK;
 use crate::area_light::{AreaLight, scaled};
-use crate::receivers::Eye;
 use crate::fullscreen::{bind, target_texture};
+use crate::receivers::Eye;
 use crate::{error::Error, gpu::Gpu, passes::Passes, receivers::Receivers, view::View};
 
 /// Where in [`Buffers::bodies`] the arguments of the draws of single wedges and of bundles are.
