@@ -22,11 +22,11 @@ Examples:
 Techniques take turns frame by frame. `floor` is one full-screen pass that reads depth and writes visibility; \
 `bare-minimum` is a depth-only pass into a map of the same size, or into as many as there are splits, and a full-screen pass with one look-up.
 
---path moves the camera by about a pixel a frame (walk: forward; strafe: to the right; turn: round; fly: all at once) and measures \
+--path moves the camera by about a pixel a frame (walk: forward; strafe: to the right; turn: around; fly: all at once) and measures \
 flicker: the mean absolute change of visibility, 0 to 1, from one frame to the next at points that are fixed in the scene. A point \
-counts where two frames show it within 1/8 pixel of a pixel's centre, so that nothing is interpolated. Since lights and casters stand, \
-the truth does not change; what the ray tracer's visibility changes by at the same pixels of the same frames is what that 1/8 pixel \
-comes to. The ratio of both is 1 where shadows stand still, and grows with edges that crawl, jump or sparkle.")]
+counts where two frames show it within 1/8 pixel of a pixel's centre, so that nothing is interpolated. Lights and casters stand \
+still, so the truth does not change; the change of the ray tracer's visibility at the same pixels is the effect of this 1/8 pixel. \
+The ratio of both is 1 where shadows are still, and grows with edges that crawl, jump or sparkle.")]
 pub struct Bench {
     #[command(flatten)]
     what: args::What,

@@ -116,7 +116,7 @@ fn as_text(source: &Source, report: &MeshReport) -> String {
     for (i, light) in scene.lights.iter().enumerate() {
         let center = light.shape.center();
         let place = if center.w == 0.0 { "from" } else { "at" };
-        let casts = if light.casts { "" } else { ", throws no shadow" };
+        let casts = if light.casts { "" } else { ", casts no shadow" };
         text += &row(
             &format!("light {i}"),
             format!("{} {place} {}{casts}", light.shape.kind().name(), vector(center.truncate())),

@@ -22,10 +22,11 @@ Examples:
   umbrage sweep contact --techniques shadow-map --vary 'shadow-map:light-samples=1|4|16|64'
   umbrage sweep city --light 0 --techniques esm --vary 'esm:exponent=10..80/8'
 
-Errors are those of `compare`, times those of `bench`. Around its settings in the list each technique is varied in one parameter \
-at a time: numbers ×2, ×1/2, ×4, ×1/4, words by each value, hard techniques on soft lights by `light-samples`, too; at most 12 \
-settings a technique. What is set stays. --vary takes the place of that for its technique, with all combinations of the \
-values; from..to/count stands for so many numbers in equal steps (5 without a count), and the error along them is drawn, too. DIR gets sweep.json, index.html (open it in a browser), plots/ and pictures/.")]
+Errors are those of `compare`, times those of `bench`. Each technique is varied around its settings in the list, one parameter \
+at a time: numbers ×2, ×1/2, ×4, ×1/4, words by each value, hard techniques under soft lights also by `light-samples`; at most 12 \
+settings for each technique. Parameters that the list sets keep their values. --vary replaces this for its technique by all \
+combinations of the given values; from..to/count means that many numbers in equal steps (5 without a count), and the error along \
+them is plotted, too. DIR gets sweep.json, index.html (open it in a browser), plots/ and pictures/.")]
 pub struct Sweep {
     #[command(flatten)]
     what: args::What,

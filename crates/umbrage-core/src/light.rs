@@ -16,7 +16,7 @@ pub struct Light {
     pub attenuation: Vec3,
     /// No light beyond this distance, metres.
     pub range: Option<f64>,
-    /// False: this light throws no shadow; its visibility is 1 everywhere.
+    /// False: this light casts no shadow; its visibility is 1 everywhere.
     pub casts: bool,
 }
 
@@ -60,14 +60,14 @@ pub enum LightShape {
         /// Angular diameter, degrees; 0 is a hard light.
         angle_deg: f64,
     },
-    /// A ball.
+    /// A sphere.
     Sphere {
         /// Centre.
         position: DVec3,
         /// Radius.
         radius: f64,
     },
-    /// A stretched ball.
+    /// A stretched sphere.
     Ellipsoid {
         /// Centre.
         position: DVec3,
@@ -234,7 +234,7 @@ impl LightShape {
         c.truncate() - p * c.w
     }
 
-    /// Radius of the smallest known ball around [`LightShape::center`] that holds the light; 0 for hard lights.
+    /// Radius of the smallest known sphere around [`LightShape::center`] that contains the light; 0 for hard lights.
     /// For a sun, the sine of half its angle: the radius at distance 1.
     pub fn radius(&self) -> f64 {
         match *self {

@@ -41,11 +41,11 @@ pub fn may_light_view(light: &Light, camera: &CameraView) -> bool {
         && !sector.is_parted_from(&corners.map(|c| (c.truncate() - apex * c.w).extend(c.w)))
 }
 
-/// The part of a ball that is within a cone from its centre.
+/// The part of a sphere that is within a cone from its centre.
 struct Sector {
     apex: DVec3,
     direction: DVec3,
-    /// Sine and cosine of the angle between the axis and the side of the cone; 180 degrees for the whole ball.
+    /// Sine and cosine of the angle between the axis and the side of the cone; 180 degrees for the whole sphere.
     sin: f64,
     cos: f64,
     /// Infinite where there is no limit.
@@ -62,7 +62,7 @@ impl Sector {
             return None;
         }
         let apex = center.truncate();
-        // What lies between a point of the light and one within the range is in the ball only if the light is.
+        // What lies between a point of the light and one within the range is in the sphere only if the light is.
         let range = light.range.map_or(f64::INFINITY, |r| r.max(light.shape.radius()));
         let limited = if range.is_finite() { range } else { 0.0 };
         let rounding = 1e-12 * (apex.abs().max_element() + limited);

@@ -41,7 +41,7 @@ pub struct Instance {
     pub world_from_mesh: DAffine3,
     /// How its joints hold it; `None` for a mesh as it is.
     pub pose: Option<Pose>,
-    /// False: it throws no shadow.
+    /// False: it casts no shadow.
     pub casts: bool,
     /// False: no shadow falls on it.
     pub receives: bool,

@@ -1,6 +1,6 @@
-//! Silhouettes: the edges that bound a mesh's shadow, and the triangles that throw it.
+//! Silhouettes: the edges that bound a mesh's shadow, and the triangles that cast it.
 //!
-//! Every triangle that throws is taken **turned to the light**, whichever way it is wound. The edges of all of them, those
+//! Every triangle that casts is taken **turned to the light**, whichever way it is wound. The edges of all of them, those
 //! cancelled that two run along in opposite directions, are the **contour**. It is the boundary of a sum of triangles and
 //! so it is a cycle: as many of its edges enter a vertex as leave it, for any triangles and wherever a triangle is said
 //! to face. Drawn away from the light it makes the sides of a shadow volume that is closed without exception.
@@ -8,7 +8,7 @@
 use crate::adjacency::{Adjacency, Edge, NONE};
 use glam::{DAffine3, DVec3, DVec4, Vec4};
 
-/// Which triangles throw the shadow.
+/// Which triangles cast the shadow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
     /// All of them. Right for any mesh, light and point.
@@ -40,7 +40,7 @@ pub fn multiplicity(edge: &Edge, planes: &[Vec4], light: Vec4, rule: Rule) -> i3
     }
 }
 
-/// An edge of the contour. It runs with the triangle that throws the shadow on its left, seen from the light.
+/// An edge of the contour. It runs with the triangle that casts the shadow on its left, seen from the light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ContourEdge {
     /// Index into [`crate::Mesh::positions`] of its start, of all vertices at the same place the first.
@@ -65,7 +65,7 @@ pub fn contour(adjacency: &Adjacency, light: Vec4, rule: Rule, into: &mut Vec<Co
     }
 }
 
-/// The triangles that throw the shadow under `rule`, each counter-clockwise seen from the light.
+/// The triangles that cast the shadow under `rule`, each counter-clockwise seen from the light.
 pub fn light_cap(adjacency: &Adjacency, light: Vec4, rule: Rule) -> impl Iterator<Item = [u32; 3]> {
     adjacency.triangles.iter().zip(&adjacency.planes).filter_map(move |(&[a, b, c], &plane)| {
         match (facing(plane, light), rule) {
@@ -168,7 +168,7 @@ mod tests {
         found
     }
 
-    /// Loops use every edge as often as it says, and come to no vertex twice.
+    /// Loops use every edge as often as it says, and visit no vertex twice.
     fn check_loops(contour: &[ContourEdge]) {
         let mut want: Vec<_> =
             contour.iter().flat_map(|e| std::iter::repeat_n((e.from, e.to), e.times as usize)).collect();

@@ -50,7 +50,7 @@ impl Side {
     }
 }
 
-/// A ball.
+/// A sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
     /// Its middle, metres.

@@ -12,7 +12,7 @@ use glam::{DVec3, DVec4};
 /// A convex body around a light: all points within `radius` of what its corners span.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightHull {
-    /// Points, or for light from infinitely far away unit directions to it. A ball has its centre four times.
+    /// Points, or for light from infinitely far away unit directions to it. A sphere has its centre four times.
     pub corners: [DVec3; 4],
     /// Metres, or for directions the sine of the angle.
     pub radius: f64,

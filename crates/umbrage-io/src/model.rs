@@ -1,4 +1,4 @@
-//! A model file as data: what OBJ and glTF come to, before it is placed in a scene.
+//! A model file as data: what OBJ and glTF give, before it is placed in a scene.
 
 use crate::{Error, extension, gltf_file, obj};
 use glam::{DAffine3, Vec2, Vec3};

@@ -1,4 +1,4 @@
-//! What OBJ and glTF files come to.
+//! What OBJ and glTF files give.
 
 use glam::{DVec3, Vec2, Vec3};
 use std::path::{Path, PathBuf};

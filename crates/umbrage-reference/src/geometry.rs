@@ -25,7 +25,7 @@ pub struct Surface {
     pub position: DVec3,
     /// Unit normal on the side that is looked at.
     pub normal: DVec3,
-    /// True where the surface itself throws shadows: it hides light samples below its tangent plane.
+    /// True where the surface itself casts shadows: it hides light samples below its tangent plane.
     pub casts: bool,
     /// The tracer's number of the triangle, which never hides its own points; `None` where it is not known.
     pub triangle: Option<u32>,

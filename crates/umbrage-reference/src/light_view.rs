@@ -19,7 +19,7 @@ pub(crate) struct LightView<'a> {
     sampler: LightSampler,
     /// Points of the unit square; none for the one ray to the centre.
     samples: Vec<DVec2>,
-    /// Radius of a ball around the centre that holds the light, or the sine of a sun's half angle.
+    /// Radius of a sphere around the centre that contains the light, or the sine of a sun's half angle.
     radius: f64,
     gather: bool,
 }

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-/// A volume that holds every ray from a point to a ball, or to a cone of directions: a pyramid around their cone and,
-/// for a ball, the plane behind it.
+/// A volume that holds every ray from a point to a sphere, or to a cone of directions: a pyramid around their cone and,
+/// for a sphere, the plane behind it.
 pub(crate) struct Shaft {
     apex: DVec3,
     /// Outward normals of planes through the apex.
@@ -17,7 +17,7 @@ pub(crate) struct Shaft {
 }
 
 impl Shaft {
-    /// The rays from `apex` to the ball around `center`. `None` where the apex is in the ball, or so near that the cone
+    /// The rays from `apex` to the sphere around `center`. `None` where the apex is in the sphere, or so near that the cone
     /// is wider than 60 degrees to either side. `scale` is the largest coordinate that occurs.
     pub fn to_ball(apex: DVec3, center: DVec3, radius: f64, scale: f64) -> Option<Self> {
         let distance = apex.distance(center);
@@ -71,7 +71,7 @@ mod tests {
     }
 
     proptest! {
-        /// Anything that holds a point on a ray to the ball touches the shaft.
+        /// Anything that holds a point on a ray to the sphere touches the shaft.
         #[test]
         fn points_on_rays_to_the_ball_are_inside(
             apex in point(5.0), center in point(5.0), radius in 0.0..3.0, u in point(1.0), t in 0.0..1.0,

@@ -105,7 +105,7 @@ impl Tracer {
         self.casting().is_blocked(&ray, None, &self.cutouts)
     }
 
-    /// The triangles that throw shadows.
+    /// The triangles that cast shadows.
     pub(crate) fn casting(&self) -> &Bvh {
         self.casters.as_ref().unwrap_or(&self.all)
     }

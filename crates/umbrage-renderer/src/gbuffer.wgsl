@@ -13,7 +13,7 @@ struct GBufferView {
 @group(0) @binding(0) var<uniform> gbuffer_view: GBufferView;
 
 struct Surface {
-    // Shadow volumes are compared with it where they touch the surface that throws them.
+    // Shadow volumes are compared with it where they touch the surface that casts them.
     @invariant @builtin(position) position: vec4f,
     @location(0) from_eye: vec3f,
     @location(1) normal: vec3f,

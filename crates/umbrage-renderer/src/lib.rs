@@ -194,7 +194,7 @@ impl Renderer {
         self.lights.get(pass).map(|l| l.technique.inside().stats()).unwrap_or_default()
     }
 
-    /// What else the last frame of pass number `pass` came to; see [`Inside::counts`](umbrage::Inside::counts).
+    /// More numbers of the last frame of pass number `pass`; see [`Inside::counts`](umbrage::Inside::counts).
     pub fn counts(&self, pass: usize) -> Vec<(&'static str, u64)> {
         self.lights.get(pass).map(|l| l.technique.inside().counts()).unwrap_or_default()
     }

@@ -46,7 +46,7 @@ const TABLES: &[Table] = &[
         ways: &["volume", "volume:count=auto", "volume:count=z-fail", "volume:count=z-pass", "volume:count=xor"],
     },
     Table {
-        title: "Sides of parallel light that go on without end, as triangles and without dark caps (GG 9.5.1)",
+        title: "Sides of parallel light that extend without end, as triangles and without dark caps (GG 9.5.1)",
         lights: Lights::Own,
         ways: &[
             "volume:reach=infinite",

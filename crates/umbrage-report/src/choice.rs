@@ -10,7 +10,7 @@ pub const RAY_TRACED: &str = "ray-traced";
 
 /// What it is, in one sentence.
 pub const RAY_TRACED_SUMMARY: &str =
-    "The truth, by the CPU: rays to points spread evenly over the light. Every comparison is held against it.";
+    "The truth, traced on the CPU with rays to points all over the light. Everything is compared with it.";
 
 umbrage::settings! {
     /// Its settings.
@@ -180,7 +180,7 @@ impl Renamed {
         umbrage::RENAMED.iter().find(|r| r.technique == id && last(r.param) == Some(r.value)).map(Self)
     }
 
-    /// The same by its name of today. What it never went by is checked and left out.
+    /// The same by its name of today. What has no effect on it is checked and left out.
     fn choice(self, set: &[(String, String)]) -> Result<Choice, Error> {
         let Self(old) = self;
         let (before, now) = (umbrage::find(old.technique)?, umbrage::find(old.to)?);
@@ -192,7 +192,7 @@ impl Renamed {
         let name = format!("{}:{}={}", old.technique, old.param, old.value);
         let mut note = format!("`{name}` is the technique `{}` now; write `{}`", now.id, choice.label());
         if let Some((first, _)) = others.first() {
-            note += &format!(", without `{first}`, which it never went by");
+            note += &format!(", without `{first}`, which has no effect on it");
         }
         choice.note = Some(note);
         Ok(choice)

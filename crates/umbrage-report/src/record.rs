@@ -230,7 +230,7 @@ pub struct CostRecord {
     pub triangles: u64,
     /// GPU memory it holds, bytes.
     pub bytes: u64,
-    /// What else its last frame came to, by name, in the technique's own order.
+    /// More numbers of its last frame, by name, in the technique's own order.
     #[serde(serialize_with = "in_order")]
     pub counts: Vec<(&'static str, u64)>,
 }

@@ -56,11 +56,11 @@ shader_struct! {
     }
 }
 
-/// Bits of `Instance::flags`: shadows fall on it; it throws shadows.
+/// Bits of `Instance::flags`: shadows fall on it; it casts shadows.
 const RECEIVES: u32 = 1;
 const CASTS: u32 = 2;
 
-/// Meshes and instances on the GPU: all that throws shadows, and all that shadows fall on (with `casts` off where it throws
+/// Meshes and instances on the GPU: all that casts shadows, and all that shadows fall on (with `casts` off where it casts
 /// none), since maps are fitted to that.
 pub struct Casters {
     origin: DVec3,
@@ -79,7 +79,7 @@ pub struct Casters {
     /// The number of the instance at each place and the batch that it belongs to: what lists need, packed.
     number_of: Vec<u32>,
     batch_of: Vec<u32>,
-    /// Boxes of the instances that throw shadows, by their place in `placed`.
+    /// Boxes of the instances that cast shadows, by their place in `placed`.
     casting: SceneTree,
     /// Boxes of those that shadows fall on.
     receiving: SceneTree,
@@ -347,7 +347,7 @@ impl Casters {
         self.bytes + self.poses.bytes() + self.edges.get().map_or(0, Edges::bytes)
     }
 
-    /// Boxes around the instances that throw shadows.
+    /// Boxes around the instances that cast shadows.
     pub fn casting_bounds(&self) -> impl Iterator<Item = Bounds> + '_ {
         self.placed.iter().filter(|p| p.casts).map(|p| p.bounds)
     }
@@ -363,7 +363,7 @@ impl Casters {
         bystanders.fold(self.casting.content().union(self.receiving.content()), Bounds::union)
     }
 
-    /// The instances that throw shadows, for queries; its numbers are those of [`Casters::placed`].
+    /// The instances that cast shadows, for queries; its numbers are those of [`Casters::placed`].
     pub(crate) fn casting(&self) -> &SceneTree {
         &self.casting
     }

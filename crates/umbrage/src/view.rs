@@ -11,7 +11,7 @@ pub struct View<'a> {
     pub camera: CameraView,
     /// Depth and normals of the visible surfaces.
     pub receivers: &'a Receivers,
-    /// What throws shadows.
+    /// What casts shadows.
     pub casters: &'a Casters,
     /// The light.
     pub light: &'a Light,

@@ -1,7 +1,8 @@
 //! The registry holds together. Needs no GPU.
 
 use std::collections::HashSet;
-use umbrage::{ParamKind, find, techniques};
+use umbrage::core::{LightKind, LightKinds};
+use umbrage::{ParamKind, TechniqueInfo, find, techniques};
 
 #[test]
 fn ids_are_unique_and_match_their_folders() {
@@ -38,4 +39,12 @@ fn defaults_are_in_range_and_words_are_not_empty() {
             }
         }
     }
+}
+
+#[test]
+fn a_light_that_a_technique_cannot_do_is_refused() {
+    let hard_only = TechniqueInfo { lights: LightKinds::HARD, ..*find("pcf").unwrap() };
+    assert_eq!(hard_only.supports(LightKind::Spot), Ok(()));
+    let refused = hard_only.supports(LightKind::Line).unwrap_err().to_string();
+    assert_eq!(refused, "pcf: not for line lights");
 }

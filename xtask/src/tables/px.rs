@@ -99,7 +99,7 @@ fn text(found: &[Value]) -> String {
     // Writing to a string does not fail.
     let _ = writeln!(
         text,
-        "Plates over a ground under one ball, a box for two wedges of the second but last of the thesis' scenes; medians of {FRAMES} frames. \
+        "Plates over a ground under one sphere light, a box for two wedges of the second but last of the thesis' scenes; medians of {FRAMES} frames. \
          *GPU* is the light's own passes, *frame* all of it from start to finished picture, *CPU* what choosing casters and uploading takes; \
          in brackets the thesis' frames a second on a Radeon 9700 Pro beside 900 MHz and 3 GHz (2003): only ratios compare.\n\n\
          Raw numbers: the JSON files here.\n\n## What the numbers say"

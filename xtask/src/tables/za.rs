@@ -6,7 +6,7 @@ use anyhow::Result;
 use serde_json::Value;
 use std::fmt::Write;
 
-/// Triangles of each of the seven bunnies of the huge scene, which come to 114,107.
+/// Triangles of each of the seven bunnies of the huge scene, which amount to 114,107.
 const BUNNY: usize = 16_301;
 const SIZES: [u32; 2] = [700, 900];
 const FRAMES: u32 = 8;

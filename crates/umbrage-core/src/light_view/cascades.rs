@@ -15,7 +15,7 @@ pub struct Cascades {
     pub count: usize,
     /// From uniform (0) to logarithmic (1) borders.
     pub lambda: f64,
-    /// Share of each part over which it gives way to the next one, whose map covers that, too.
+    /// Share of each split over which it is blended with the next one, whose map covers that, too.
     pub overlap: f64,
     /// What shadows end at, metres along the view; 0 for the farthest receiver.
     pub distance: f64,
@@ -30,7 +30,7 @@ pub enum Cover {
     Receivers,
     /// The part itself: scene-independent.
     Part,
-    /// A ball around the part, or with a spot a square, on a grid of texels that does not move with the camera. Maps go on in steps
+    /// A sphere around the split, or with a spot a square, on a grid of texels that does not move with the camera. Maps move in steps
     /// of so many texels.
     Steady {
         /// Texels a step, at least 1: over so much the camera moves before a view changes at all.
@@ -177,7 +177,7 @@ fn between(forward: DVec3, eye: DVec3, [from, to]: [f64; 2]) -> Frustum {
     Frustum::bounded_by(vec![plane(forward, -from), plane(-forward, to)])
 }
 
-/// Middle and radius of a ball around what the camera may see between two distances along the view and no farther than `reach` from the
+/// Middle and radius of a sphere around what the camera may see between two distances along the view and no farther than `reach` from the
 /// eye. The radius depends on the projection and the distances alone, not on where the camera looks, to the last bit.
 fn ball(camera: &CameraView, ends: [f64; 2], reach: f64) -> (DVec3, f64) {
     let part = Frustum::of(&camera.clip_from_view).and(&between(DVec3::NEG_Z, DVec3::ZERO, ends));

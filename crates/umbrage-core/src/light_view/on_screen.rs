@@ -6,7 +6,7 @@ use glam::{DMat4, DVec2, DVec3};
 
 /// The view that counts at `point`; `None` where none covers it.
 ///
-/// `splits` are distances along the camera's view, ascending, at which the view of one layer gives way to that of the next, unless that has a
+/// `splits` are distances along the camera's view, ascending, at which the view of one layer ends and that of the next begins, unless that has a
 /// [`LightView::steady_border`] and the point is inside of it; without any the first view that covers the point counts.
 pub fn view_at<'a>(views: &'a [LightView], splits: &[f64], camera: &CameraView, point: DVec3) -> Option<&'a LightView> {
     let distance = -camera.view_from_world.transform_point3(point).z;

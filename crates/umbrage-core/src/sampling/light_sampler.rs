@@ -81,7 +81,7 @@ impl LightSampler {
 }
 
 impl LightFrom<'_> {
-    /// The same light with its samples turned about the middle by `angle` radians, where it is round: a disc, a ball, a
+    /// The same light with its samples turned about the middle by `angle` radians, where it is round: a disc, a sphere, a
     /// sun. With an angle of its own for every receiver, errors along straight shadow edges do not form bands.
     pub fn turned(self, angle: f64) -> Self {
         let [x, y] = self.axes;

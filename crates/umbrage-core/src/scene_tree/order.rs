@@ -29,7 +29,7 @@ impl SceneTree {
         self.nodes[node as usize].span = Some([begin, self.order.len() as u32]);
     }
 
-    /// After an object came to or left `node`: neither that nor those above are a slice any more.
+    /// After an object entered or left `node`: neither that nor those above are a slice any more.
     pub(super) fn note_change(&mut self, mut node: u32) {
         self.changes += 1;
         if self.changes * CHANGED >= self.len {

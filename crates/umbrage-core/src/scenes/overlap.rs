@@ -8,7 +8,7 @@ pub const ENTRY: SceneEntry = SceneEntry {
     id: "overlap",
     title: "Plates above each other",
     about: "Penumbras of two casters on the same place: what adds up their coverage, or knows only one of them, is \
-            wrong there. On the left two plates, on the right a ring around a ball. Lights: 0 point, 1 sphere at the same place.",
+            wrong there. On the left two plates, on the right a ring around a sphere. Lights: 0 point, 1 sphere at the same place.",
     build,
 };
 
@@ -43,7 +43,7 @@ fn build(detail: f32) -> Scene {
     scene.place(cube, orange, sized(foot + DVec3::new(0.55, 0.95, 0.55), DVec3::new(1.5, 0.05, 1.5), 0.0));
     scene.place(cube, blue, sized(foot + DVec3::new(0.42, 1.75, 0.42), DVec3::new(1.1, 0.05, 1.1), 14.0));
 
-    // A ring that lies tilted around a ball on a rod.
+    // A ring that lies tilted around a sphere on a rod.
     let ball = DVec3::new(1.35, 1.15, 0.15);
     scene.place(rod, steel, standing(DVec3::new(ball.x, 0.0, ball.z), DVec3::new(0.025, 0.9, 0.025), 0.0));
     scene.place(sphere, blue, sized(ball, DVec3::splat(0.4), 0.0));

@@ -28,7 +28,7 @@ pub fn fir(columns: u32) -> Tree {
     Tree { wood: trunk(columns, 0.3, 0.03), leaves: shapes::lathe("fir", columns, &profile) }
 }
 
-/// A broad-leaved tree: a crown of lumpy balls on a trunk. `columns` around each ball.
+/// A broad-leaved tree: a crown of lumpy spheres on a trunk. `columns` around each sphere.
 pub fn broadleaf(columns: u32, rng: &mut Rng) -> Tree {
     let mut leaves = Mesh { name: "crown".into(), ..Mesh::default() };
     for i in 0..7 {
@@ -51,7 +51,7 @@ fn trunk(columns: u32, height: f64, radius: f64) -> Mesh {
     shapes::lathe("trunk", columns.min(12), &profile)
 }
 
-/// A ball of radius about 1 with bumps.
+/// A sphere of radius about 1 with bumps.
 fn lump(columns: u32, rng: &mut Rng) -> Mesh {
     let waves: Vec<(Vec3, f32)> = (0..5)
         .map(|_| {

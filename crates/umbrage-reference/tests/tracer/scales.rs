@@ -6,7 +6,7 @@ use umbrage_core::{Camera, Light, LightShape, Scene, primitive};
 use umbrage_reference::closed_form::sphere_above_plane;
 use umbrage_reference::{Options, Tracer, Truth};
 
-/// A ball of this radius at a place, and a camera and a light near it.
+/// A sphere of this radius at a place, and a camera and a light near it.
 fn ball(radius: f64, at: DVec3) -> Scene {
     let mut scene = Scene {
         camera: Camera { eye: at + DVec3::Z * radius * 3.0, target: at, near: radius * 1e-3, ..Camera::default() },

@@ -19,7 +19,7 @@ pub fn speck() -> Mesh {
     }
 }
 
-/// A floor, a turned box, a torus that shadows itself, and a ball, seen from above.
+/// A floor, a turned box, a torus that shadows itself, and a sphere, seen from above.
 pub fn still_life() -> Scene {
     let mut scene = Scene {
         camera: Camera { eye: DVec3::new(-0.4, 5.0, 7.0), target: DVec3::Y * 0.4, ..Camera::default() },

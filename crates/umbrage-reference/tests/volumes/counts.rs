@@ -12,7 +12,7 @@ use umbrage_core::silhouette::{Rule, facing, light_in_mesh};
 use umbrage_core::{Bounds, Mesh, Scene};
 use umbrage_reference::Tracer;
 
-/// How many points came to what. A test that checks nothing must not pass.
+/// How many points had which answer. A test that checks nothing must not pass.
 #[derive(Default)]
 struct Tally {
     lit: Cell<u32>,
@@ -61,7 +61,7 @@ impl Shadow {
         Self { light: *light, light_in_mesh, adjacency, triangles, volume, rule, tracer: Tracer::new(&scene) }
     }
 
-    /// How many triangles that throw under the rule are between a point and the light.
+    /// How many triangles that cast under the rule are between a point and the light.
     fn in_between(&self, point: DVec4) -> Option<i32> {
         let mut count = 0;
         for (corners, plane) in self.triangles.iter().zip(&self.adjacency.planes) {

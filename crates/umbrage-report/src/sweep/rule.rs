@@ -149,7 +149,7 @@ mod tests {
             let base = Choice::new(info.id, &[]).unwrap();
             for soft in [false, true] {
                 let (choices, curves) = around(&base, soft).unwrap();
-                assert!(choices.len() <= MOST, "{} comes to {}", info.id, choices.len());
+                assert!(choices.len() <= MOST, "{} has {}", info.id, choices.len());
                 assert_eq!(choices[0].label(), info.id);
                 for choice in &choices[1..] {
                     let set = choice.changed().len() + choice.light_samples.iter().count();

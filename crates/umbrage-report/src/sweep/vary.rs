@@ -2,7 +2,7 @@
 
 use crate::{error::Error, round::rounded};
 
-/// Most settings that one sweep may come to.
+/// Most settings that one sweep may have.
 const MOST: usize = 1000;
 
 /// Values of a range that does not say how many.
@@ -38,7 +38,7 @@ impl Vary {
         }
         let count = params.iter().fold(1usize, |count, (_, values)| count.saturating_mul(values.len()));
         if count > MOST {
-            return Err(Error::Name(format!("`{text}` comes to {count} settings; {MOST} at most, leave values out")));
+            return Err(Error::Name(format!("`{text}` makes {count} settings, more than {MOST}: leave values out")));
         }
         params.sort_by_key(|(_, values)| values.len() > 1);
         Ok(Self { technique: technique.trim().into(), params })

@@ -14,5 +14,5 @@ pub(crate) use uniform::{Anchor, AreaLight, Frame, scaled};
 pub(crate) const SHARED: Shared =
     Shared { module: "area_light", layouts: &[AreaLight::LAYOUT, Anchor::LAYOUT], constants: form::CONSTANTS };
 
-/// The share of coordinates that a few roundings of single precision come to.
+/// The share of coordinates that a few roundings of single precision amount to.
 pub(crate) const ROUNDING: f64 = 1e-6;

@@ -38,7 +38,7 @@ struct Caster {
     pad_axis: f32,
 }
 
-// Only triangles that face away from the light throw the shadow; otherwise all do, turned to the light.
+// Only triangles that face away from the light cast the shadow; otherwise all do, turned to the light.
 const AWAY: u32 = 1u;
 const MIRRORED: u32 = 2u;
 const Z_FAIL: u32 = 4u;

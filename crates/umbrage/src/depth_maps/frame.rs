@@ -16,7 +16,7 @@ pub struct MapFrame {
     pub layers: Layers,
     /// Distances along the camera's view between views that split it, its ends included.
     pub borders: Vec<f64>,
-    /// Share of a split over which it gives way to the next one.
+    /// Share of a split over which it is blended with the next one.
     pub overlap: f64,
     /// Radius of filters, metres; 0 where it is in texels.
     pub softness_m: f64,

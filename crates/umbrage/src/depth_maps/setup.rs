@@ -50,14 +50,15 @@ choices! {
 settings! {
     /// What every technique with maps has.
     pub struct Map {
-        /// Width and height of a map; a light to all sides has several, see `omni`.
+        /// Width and height of each map. A light to all sides has several maps, see `omni`.
         size: u32 = 1024, in 1..=16384, unit "texels", live true,
-        /// Which surface the map holds: the nearest one, the nearest that faces away (closed meshes only), or the
-        /// middle between the nearest two.
+        /// Which surface the map holds: the nearest one, the nearest one that faces away from the
+        /// light (closed meshes only), or the middle between the two nearest.
         faces: Faces = Faces::Front,
-        /// Keeps a map while its view stays the same and draws only what moves; see `focus` for views that stay.
+        /// Keeps a map for as long as its view stays the same, and draws only what moves. With
+        /// `focus = light` the view does not depend on the camera.
         cache: bool = true, live true,
-        /// Multiplies the automatic depth bias; for experiments, 1 is right.
+        /// Multiplies the automatic depth bias. It is for experiments; 1 is right.
         bias: f64 = 1.0, in 0.0..=100.0, live true,
     }
 }
@@ -65,11 +66,11 @@ settings! {
 settings! {
     /// What a light's maps cover, where they are neither split nor warped.
     pub struct Cover {
-        /// The maps of a light that shines to all sides: six faces of a cube, two paraboloids (finely tessellated casters only) or
-        /// four faces of a tetrahedron.
+        /// The maps of a light that shines to all sides: six faces of a cube, two paraboloids (for
+        /// finely tessellated casters only), or four faces of a tetrahedron.
         omni: Layout = Layout::Cube, live true,
-        /// What the map covers: what the camera sees of the receivers, or all that the light reaches (steady under a
-        /// moving camera).
+        /// What the map covers: the receivers that the camera sees, or everything that the light
+        /// reaches (which is steady under a moving camera).
         focus: Covers = Covers::Visible, live true,
     }
 }
@@ -77,8 +78,8 @@ settings! {
 settings! {
     /// How depth is stored.
     pub struct Storage {
-        /// What maps seen from a point store: near / distance as the projection has it, or a depth that falls linearly with
-        /// the distance. Maps of parallel light are linear.
+        /// What maps seen from a point store: near / distance, as the projection gives it, or a
+        /// depth that falls linearly with the distance. Maps of parallel light are always linear.
         depth: Depth = Depth::Projective, live true,
     }
 }

@@ -31,11 +31,12 @@ choices! {
 settings! {
     /// What all techniques with moments have.
     pub struct Filtering {
-        /// Radius of the filter, that of a disc as wide; 1 is the least. Its cost does not depend on it.
+        /// Radius of the filter, as that of a disc of the same width. The cost does not depend on
+        /// it; values below 1 act as 1.
         radius: f64 = 1.0, in 0.0..=1024.0, unit "texels",
         /// Bits of each stored number.
         format: Format = Format::Bits32,
-        /// Looks coarser levels up where a pixel covers many texels.
+        /// Looks up coarser levels where a pixel covers many texels.
         mips: bool = true,
     }
 }

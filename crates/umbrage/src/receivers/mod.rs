@@ -13,7 +13,7 @@ pub(crate) const SHARED: Shared = Shared { module: "receivers", layouts: &[Eye::
 /// Depth (and normals) of the visible surfaces, made once per size.
 ///
 /// Depth has 24 bits or floats and one sample a pixel; of a format with stencil, the view is of the depth alone. All
-/// surfaces in it that shadows should fall on have to be among the [`crate::Casters`], those that throw none too: maps are
+/// surfaces in it that shadows should fall on have to be among the [`crate::Casters`], those that cast none too: maps are
 /// fitted to them. Normals are `R32Uint`: the geometric normal in world space,
 /// turned to the eye, packed by the function in [`crate::wgsl::PACK_NORMAL`]. Without them normals come from the depth itself, which
 /// costs a little and is less exact at the edges of surfaces.

@@ -1,6 +1,6 @@
 // Directions in 32 bits: the octahedron's unfolded faces, 16 bits each way. The lowest bit is taken for a flag.
 
-// `n`: geometric normal in world space, turned to the eye. `casts`: whether the surface throws shadows, so that it is in
+// `n`: geometric normal in world space, turned to the eye. `casts`: whether the surface casts shadows, so that it is in
 // its own shadow where it faces away from the light.
 fn pack_normal(n: vec3f, casts: bool) -> u32 {
     let flat_normal = n / (abs(n.x) + abs(n.y) + abs(n.z));

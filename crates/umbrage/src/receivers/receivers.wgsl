@@ -70,7 +70,7 @@ fn along_surface(eye: Eye, pixel: vec2f, here: vec3f, step: vec2i) -> vec3f {
 struct Surface {
     // Geometric normal with world axes, turned to the eye, of any length.
     normal: vec3f,
-    // Whether it throws shadows. Without normals that is not known, and taken to be so.
+    // Whether it casts shadows. Without normals that is not known, and taken to be so.
     casts: bool,
 }
 

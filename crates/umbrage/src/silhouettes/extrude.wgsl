@@ -57,7 +57,7 @@ fn dark_corner(caster: u32, p: vec3f) -> vec4f {
     return vec4f(extrusion.light.xyz + away * (max(reach, length(away)) / length(away)), 1.0);
 }
 
-// Caps, and sides at their edge, coincide with the surface that throws them, which has to be in front whatever was rounded.
+// Caps, and sides at their edge, coincide with the surface that casts them, which has to be in front whatever was rounded.
 fn on_screen(p: vec4f, times: f32) -> Corner {
     let at = extrusion.clip_from_world * p;
     return Corner(vec4f(at.xy, at.z + extrusion.away.x * at.z + extrusion.away.y * at.w, at.w), times);

@@ -1,4 +1,4 @@
-//! What a frame's casters come to: their chunks, room for what may be found, and the CPU's own search.
+//! What a frame's casters need: their chunks, room for what may be found, and the CPU's own search.
 
 use super::buffers::Needs;
 use super::caster::{self, AWAY, CHUNK, Caster, DARK_CAP, HEADER, LIGHT_CAP, Throw, Z_FAIL};

@@ -94,7 +94,7 @@ fn live_through(pair: &mut Pair) -> [u32; 2] {
     for i in 0..35 {
         pair.place(movable[0], up(0.1 * f64::from(i)));
         if i % 5 == 0 || i > 28 {
-            pair.check("one moves while the others come to rest");
+            pair.check("one moves while the others stop");
         } else {
             pair.kept.frame(&pair.camera).unwrap();
         }

@@ -48,7 +48,7 @@ const GOLDEN: &[Row] = &[
     ("duelling-frusta", 1.0, 0, "plane-optimal", "", 58.0, 99.95),
     ("lantern", 1.0, 0, "psm", "", 22.0, 99.95),
     ("atrium", 0.3, 0, "psm", "", 49.0, 99.9),
-    // Exact but for pixels that rounding decides: two of them. Terrain is left out, its leaves throw whole quads.
+    // Exact but for pixels that rounding decides: two of them. Terrain is left out, its leaves cast whole quads.
     ("primitives", 1.0, 0, "volume", "", 0.3, 100.0),
     ("primitives", 1.0, 0, "volume", "count=z-fail", 0.3, 100.0),
     ("atrium", 0.3, 0, "volume", "", 0.3, 100.0),

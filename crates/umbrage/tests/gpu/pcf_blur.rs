@@ -31,7 +31,7 @@ fn floor_from_above() -> Scene {
     boxes(light, camera, &shapes.map(|middle| (middle, DVec3::new(0.9, 0.1, 0.5))))
 }
 
-/// The Gaussian by its definition, over rows and then columns of a picture that goes on as its border.
+/// The Gaussian by its definition, over rows and then columns of a picture that continues as its border.
 fn gaussian(picture: &Image<f32>, radius: f64) -> Image<f32> {
     let reach = radius.floor() as i64;
     let weights = |i: i64| (-2.0 * (i * i) as f64 / (radius * radius)).exp();
@@ -83,7 +83,7 @@ fn on_a_plane_depth_makes_no_difference() {
     let [on, off] = ["on", "off"].map(|aware| seen(&gpu, &scene, &format!("radius=6,depth-aware={aware}"), (160, 120)));
     let partly = off.data.iter().filter(|v| **v > 0.05 && **v < 0.95).count();
     assert!(partly > 500, "only {partly} pixels are between light and shadow");
-    // The border of the picture goes on as a pixel and not as a plane.
+    // The border of the picture continues as a pixel and not as a plane.
     let inside = (6..114).flat_map(|y| (6..154).map(move |x| (x, y)));
     let differ = inside.filter(|at| (on[*at] - off[*at]).abs() > 1e-3).count();
     assert_eq!(differ, 0, "pixels of a plane are not blurred as such");

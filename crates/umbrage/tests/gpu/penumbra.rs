@@ -56,7 +56,7 @@ impl Case {
                 rect_above_plane(p, up, (from + to) * 0.5, [(to - from) * 0.5, DVec3::ZERO])
             }
             LightShape::Ellipsoid { position, radii, rotation } => {
-                // In the space where it is a ball of radius 1, where planes are planes still.
+                // In the space where it is a sphere of radius 1, where planes are planes still.
                 let to_unit = DMat3::from_diagonal(radii.recip()) * rotation.transpose();
                 let up = to_unit.inverse().transpose() * up;
                 sphere_above_plane(DVec3::ZERO, up.normalize(), to_unit * (position - p), 1.0)

@@ -223,7 +223,7 @@ fn flags_are_honoured() {
     for id in ["shadow-map", "volume"] {
         assert!(dark(&scene, id), "{id}");
         assert!(!dark(&blind, id), "{id}: no shadow falls on a floor that does not receive");
-        assert!(!dark(&through, id), "{id}: a box that does not cast throws no shadow");
+        assert!(!dark(&through, id), "{id}: a box that does not cast has no shadow");
     }
 }
 

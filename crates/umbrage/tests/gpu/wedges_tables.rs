@@ -94,7 +94,7 @@ fn pieces_of_pictures_add_up_to_them() {
     }
 }
 
-/// About half of the picture is below the floor, aslant, so that what is depends on the picture.
+/// About half of the picture is below the floor, and oblique, so that what is depends on the picture.
 #[test]
 fn a_picture_below_the_horizon_is_hidden() {
     let gpu = gpu();

@@ -29,7 +29,7 @@ impl Fitter {
         Self { choice, soft: false, scene_of: None }
     }
 
-    /// Chooses the views of this frame; none where there is no light or nothing to throw a shadow.
+    /// Chooses the views of this frame; none where there is no light or nothing to cast a shadow.
     pub fn prepare(&mut self, view: &View<'_>, is_linear: bool, frame: &mut MapFrame) {
         self.gather(view, &mut frame.scene);
         frame.views.clear();

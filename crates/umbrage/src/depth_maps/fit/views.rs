@@ -53,7 +53,7 @@ impl Views {
         self.warp.is_some()
     }
 
-    /// How one split gives way to the next.
+    /// How one split is blended with the next.
     pub fn blend(&self) -> Blend {
         self.blend
     }
@@ -73,7 +73,7 @@ impl Views {
         self.softness_m
     }
 
-    /// Share of a split over which it gives way to the next one.
+    /// Share of a split over which it is blended with the next one.
     pub fn overlap(&self) -> f64 {
         self.cascades.map_or(0.0, |c| c.overlap)
     }

@@ -49,7 +49,7 @@ impl LightExtent {
 
     fn round(rotation: DMat3, radii: DVec3) -> Self {
         let widest = radii.max_element();
-        // To where it is a ball, times the widest radius; a light without extent is a ball too.
+        // To where it is a sphere, times the widest radius; a light without extent is a sphere too.
         let narrow = if widest > 0.0 { (radii / widest).max(DVec3::splat(FLATTEST)) } else { DVec3::ONE };
         let axis = |i: usize| (rotation.col(i) * radii[i]).as_vec3().to_array();
         let unit = |i: usize| (rotation.col(i) / narrow[i]).as_vec3().to_array();

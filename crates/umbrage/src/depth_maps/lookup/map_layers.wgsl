@@ -31,7 +31,7 @@ struct MapLayer {
     from_first: vec4f,
 }
 
-// The light as a surface. A round one is the image of the unit ball under its half axes, a flat one has two.
+// The light as a surface. A round one is the image of the unit sphere under its half axes, a flat one has two.
 struct LightExtent {
     right: vec3f,
     pad: f32,
@@ -39,7 +39,7 @@ struct LightExtent {
     pad_a: f32,
     ahead: vec3f,
     pad_b: f32,
-    // Take a direction to where a round light is the unit ball, but for a factor. Of a flat light, the last is its normal.
+    // Take a direction to where a round light is the unit sphere, but for a factor. Of a flat light, the last is its normal.
     unit_right: vec3f,
     pad_c: f32,
     unit_up: vec3f,
@@ -72,7 +72,7 @@ struct MapLookup {
     softness: f32,
     // Takes the camera's normalised device coordinates to the distance along the view, times w.
     view_distance: vec4f,
-    // Distances at which splits end, and at which they begin to give way to the next one.
+    // Distances at which splits end, and at which blending with the next one begins.
     splits: array<vec4f, 2>,
     blends: array<vec4f, 2>,
     light: LightExtent,
@@ -86,7 +86,7 @@ struct MapLookup {
 override PERSPECTIVE: bool = false;
 // Views of parallel light whose texels are not all of one size.
 override WARPED: bool = false;
-// The light is a ball of some kind, else flat.
+// The light is a sphere of some kind, else flat.
 override ROUND: bool = false;
 
 // Which layer a receiver is in.
@@ -103,7 +103,7 @@ override LAYERS: u32 = MOST_LAYERS;
 // Splits stand still while the camera moves.
 override STEADY: bool = false;
 
-// How a split gives way to the next one: at once, pixel by pixel, or by mixing both.
+// How a split is blended with the next one: at once, pixel by pixel, or by mixing both.
 override BLEND: u32 = 0u;
 const DITHER: u32 = 1u;
 const LERP: u32 = 2u;

@@ -23,7 +23,7 @@ struct MapPoint {
     across: f32,
     // Of a paraboloid: what bends that, see `plane_step`.
     bend: f32,
-    // It faces away from the light and throws shadows itself: nothing has to be looked up.
+    // It faces away from the light and casts shadows itself: nothing has to be looked up.
     is_own_shadow: bool,
     // How much the depth may be off by rounding.
     rounding: f32,
@@ -38,7 +38,7 @@ const CREASE: f32 = 0.5;
 // How steeply a surface may rise above the receiver's plane within a wide filter: a tangent.
 const BEND: f32 = 0.25;
 
-// Share of a steady map's width over which it gives way to the next one.
+// Share of a steady map's width over which it is blended with the next one.
 const STEADY_FADE: f32 = 0.025;
 
 // Widest filter of a radius in metres.
@@ -134,8 +134,8 @@ fn texel_step(layer: u32, place: vec4f, change: vec4f) -> vec3f {
     return change.xyw;
 }
 
-// The split of a place. A map that stands still covers a ball around its part, so it goes on behind the part's end for as long as it
-// covers what is there, and gives way to the next one towards its own border.
+// The split of a place. A steady map covers a sphere around its split, so it is used beyond the split's end for as long as it
+// covers what is there, and is blended with the next one towards its own border.
 fn split_of(pixel: Pixel, first: MapPoint) -> Split {
     let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
     var split = split_at(dot(map.view_distance, ndc) / eye_w(map.eye, ndc));

@@ -41,7 +41,7 @@ type Draws = Vec<(Phase, wgpu::RenderPipeline)>;
 /// What pipelines are made for.
 #[derive(Clone, Copy, PartialEq)]
 struct Variant {
-    /// The light is a ball of some kind, which turns the same side to all.
+    /// The light is a sphere of some kind, which turns the same side to all.
     round: bool,
     perspective: bool,
     warped: bool,

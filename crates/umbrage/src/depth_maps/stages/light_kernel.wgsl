@@ -36,7 +36,7 @@ fn light_kernel(point: MapPoint, pixel: Pixel) -> LightKernel {
     var up = map.light.up;
     var normal = map.light.unit_ahead;
     if ROUND {
-        // The disc across the way, in the space where the light is a ball.
+        // The disc across the way, in the space where the light is a sphere.
         let unit = normalize(vec3f(dot(way, map.light.unit_right), dot(way, map.light.unit_up), dot(way, map.light.unit_ahead)));
         let a = any_perpendicular(unit);
         let b = cross(unit, a);

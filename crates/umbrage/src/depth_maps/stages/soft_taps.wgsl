@@ -137,7 +137,7 @@ fn search_blockers(point: MapPoint, kernel: LightKernel, first: u32, reach: f32)
         }
     }
     if count == 0.0 {
-        // Nothing that surely hides the light; what there is nearer to the receiver may go on to where it does.
+        // Nothing that surely hides the light; what there is nearer to the receiver may extend to where it does.
         let mean = any.x / max(any.y, 1.0);
         return Blockers(any.y, mean, vec2f(0.0), mean, mean);
     }

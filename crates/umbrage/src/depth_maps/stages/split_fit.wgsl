@@ -17,7 +17,7 @@ struct SplitFit {
     margin: f32,
     count: u32,
     lambda: f32,
-    // Share of a part over which it gives way to the next one.
+    // Share of a split over which it is blended with the next one.
     overlap: f32,
     // Shadows end here.
     distance: f32,

@@ -27,27 +27,35 @@ settings! {
     /// See the module.
     pub struct Cascaded {
         #[flatten] map: Map,
-        /// Parts of what the camera sees, each with a map of its own.
+        /// Number of splits of the view, each with a map of its own.
         splits: u32 = 4, in 1..=9, live true,
-        /// Where the parts end: at uniform (0) or logarithmic (1) distances, or in between.
+        /// Where the splits end: at uniform distances (0), at logarithmic ones (1), or between the
+        /// two.
         lambda: f64 = 0.95, in 0.0..=1.0, live true,
-        /// How far along the view shadows go; 0 for the farthest receiver.
+        /// How far along the view there are shadows; 0 means up to the farthest receiver.
         distance: f64 = 0.0, in 0.0..=1e12, unit "m", live true,
-        /// The technique that looks the maps up, with its own defaults but for the parameters that are set here.
+        /// The technique that looks up the maps. It keeps its own defaults, except for the
+        /// parameters that are set here.
         filter: FilterId = FilterId::default(),
-        /// Of `pcf`, see there.
+        /// Kernel of `pcf`.
         kernel: Kernel = Kernel::Hardware,
-        /// Radius of `pcf` and `pcf-jitter` in metres, the same in all parts; 0 for their own one in texels. Those of `pcss` follow the light.
+        /// Radius of `pcf` and `pcf-jitter` in metres, the same in all splits; 0 means their own
+        /// radius in texels. `pcss` and `pcss-jitter` follow the light.
         radius_m: f64 = 0.0, in 0.0..=1e6, unit "m",
-        /// What maps cover: what a part holds of the receivers (scene-dependent), or the whole part of the view (scene-independent).
+        /// What maps cover: the receivers in a split (scene-dependent), or the whole split
+        /// (scene-independent).
         fit: Fit = Fit::Scene, live true,
-        /// Splits the range of depths that are really visible, found on the GPU, in place of that of boxes around the receivers.
+        /// Splits the range of depths that are visible in this frame, found on the GPU, instead of
+        /// the range of boxes around the receivers.
         depth_fit: bool = false,
-        /// Keeps texels where they are in the world when the camera moves or turns, so that edges don't crawl; in place of `fit`.
+        /// Keeps texels in place in the world when the camera moves or turns, so that edges do not
+        /// crawl. Replaces `fit`.
         stabilize: bool = false, live true,
-        /// With `stabilize`: share of a map that the camera may move by before the map changes at all.
+        /// With `stabilize`: the share of a map by which the camera may move before the map
+        /// changes.
         margin: f64 = 0.0, in 0.0..=0.5, live true,
-        /// How a part passes into the next one over its last tenth: by mixing both, by a pattern of pixels, or at once.
+        /// How a split is blended with the next one over its last tenth: by mixing both, by a
+        /// pattern of pixels, or not at all.
         blend: Blend = Blend::Lerp,
     }
 }
@@ -56,7 +64,8 @@ settings! {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: "cascaded",
     title: "Cascaded shadow maps",
-    summary: "Splits what the camera sees by distance and renders a depth map for each part: fine texels near, coarse ones far away.",
+    summary: "Splits the view by distance and renders a depth map for each split: fine texels near, coarse ones \
+              far away.",
     source: "FE 3 to 5; SG \"Extensions\"",
     family: Family::FittedMaps,
     filter: None,

@@ -31,7 +31,8 @@ settings! {
         #[flatten] filtering: Filtering,
         /// How steeply light falls off behind a blocker, over the range of depth.
         exponent: f64 = 400.0, in 1.0..=2000.0,
-        /// Shares of light up to this count as none, the rest is stretched: takes light that bleeds through off.
+        /// Shares of light up to this value count as none, and the others are stretched. This
+        /// removes light that bleeds through.
         bleeding: f64 = 0.1, in 0.0..=0.9,
     }
 }

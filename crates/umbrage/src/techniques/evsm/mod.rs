@@ -37,11 +37,14 @@ settings! {
         #[flatten] map: Map,
         #[flatten] cover: Cover,
         #[flatten] filtering: Filtering,
-        /// Width of penumbras: that of the filter, or what the light's size and the blocker's distance make it.
+        /// Width of penumbras: that of the filter, or the width that follows from the light's size
+        /// and the blocker's distance.
         softness: Width = Width::Fixed,
-        /// Numbers a texel: 4 for a growing and a falling exponential, 2 for the growing one alone. Of `softness = fixed`.
+        /// Numbers for each texel: 4 for a growing and a falling exponential, 2 for the growing one
+        /// alone. Only with `softness = fixed`.
         components: Components = Components::Four,
-        /// Shares of light up to this count as none, the rest is stretched: takes light that bleeds through off.
+        /// Shares of light up to this value count as none, and the others are stretched. This
+        /// removes light that bleeds through.
         bleeding: f64 = 0.1, in 0.0..=0.9,
     }
 }
@@ -59,7 +62,8 @@ impl Evsm {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: "evsm",
     title: "Exponential variance shadow maps",
-    summary: "Variance shadow maps of exponentials of depth, which part receiver and blocker and keep light from bleeding.",
+    summary: "Variance shadow maps of exponentials of depth, which separate receiver and blocker: less light \
+              bleeds through.",
     source: "FE 2.3.1",
     family: Family::MomentMaps,
     filter: Some(FilterUse { warped: true }),

@@ -104,7 +104,7 @@ impl Placed {
         let row = |i: usize| m.row(i).extend(offset[i]).as_vec4().to_array();
         let back = m.inverse();
         let column = |i: usize| back.col(i).extend(0.0).as_vec4().to_array();
-        // What a depth buffer's rounding and single precision come to.
+        // What a depth buffer's rounding and single precision amount to.
         let coordinates = view.casters.all_bounds().largest_coordinate().max(eye.abs().max_element());
         let stretch = [m.x_axis, m.y_axis, m.z_axis].map(|c| c.length()).into_iter().fold(0.0, f64::max);
         Self {

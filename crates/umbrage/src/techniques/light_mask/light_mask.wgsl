@@ -1,10 +1,10 @@
 // needs: fullscreen, receivers, area_light
-// The light as a set of samples: every triangle before it strikes out those that it hides, so that whatever casters share counts
+// The light as a set of samples: every triangle before it removes those that it hides, so that whatever casters share counts
 // once. Triangles are found in hierarchies of boxes by the pyramid from the point to the light.
 
 struct TreeNode {
     low: vec3f,
-    // Where the walk goes on when it does not enter.
+    // Where the walk continues when it does not enter.
     next: u32,
     high: vec3f,
     // Of a leaf the first thing and how many, else 0.
@@ -126,7 +126,7 @@ fn is_dark() -> bool {
     return (all.x & all.y & all.z & all.w) == 0xffffffffu;
 }
 
-// Strikes out the samples that a triangle hides.
+// Removes the samples that a triangle hides.
 fn strike(rows: Rows, p: vec3f, triangle: u32, tolerance: f32) {
     let da = corner(triangles[3u * triangle]) - p;
     let db = corner(triangles[3u * triangle + 1u]) - p;

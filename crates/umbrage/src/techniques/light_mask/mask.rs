@@ -1,4 +1,4 @@
-//! The pass that strikes out samples, and what it reads.
+//! The pass that removes samples, and what it reads.
 
 use super::casters::{Placed, Trees};
 use super::grown::storage;
@@ -19,7 +19,7 @@ pub(super) const MASK_SHADER: Shader =
 /// Samples in a word of the mask.
 const WORD: u32 = 32;
 
-/// Strikes out the samples of a light.
+/// Removes the samples of a light.
 pub(super) struct Mask {
     words: u32,
     layout: wgpu::BindGroupLayout,

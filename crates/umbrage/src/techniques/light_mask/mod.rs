@@ -19,7 +19,7 @@ use umbrage_core::LightKinds;
 settings! {
     /// See the module.
     pub struct LightMask {
-        /// Samples of the light; rounded up to a multiple of 32.
+        /// Samples of the light, rounded up to a multiple of 32.
         samples: u32 = 256, in 32..=256,
         /// Radius of point and spot lights, which are hard without one.
         radius: f64 = 0.0, in 0.0..=1000.0, unit "m",
@@ -30,8 +30,8 @@ settings! {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: technique::ID,
     title: "Light mask",
-    summary: "Strikes out what every triangle hides of the light's samples: right for any triangles, wherever casters overlap, \
-              to within the number of samples.",
+    summary: "Removes what every triangle hides of the light's samples: right for any triangles, wherever casters \
+              overlap, as far as the number of samples allows.",
     source: "Schwarz and Stamminger 2007; Sintorn et al. 2008",
     family: Family::AreaLights,
     filter: None,

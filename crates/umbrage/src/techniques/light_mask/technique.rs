@@ -1,4 +1,4 @@
-//! A frame: choose casters, put them into trees, strike out samples.
+//! A frame: choose casters, put them into trees, remove samples.
 
 use super::mask::Mask;
 use crate::area_light::{Form, casters_in_view, is_on_a_caster};

@@ -12,11 +12,13 @@ settings! {
     /// See the module.
     pub struct Lispsm {
         #[flatten] map: Map,
-        /// The technique that looks the map up, with its own defaults but for the parameters that are set here.
+        /// The technique that looks up the maps. It keeps its own defaults, except for the
+        /// parameters that are set here.
         filter: FilterId<true> = FilterId::default(),
-        /// Of `pcf`, see there.
+        /// Kernel of `pcf`.
         kernel: Kernel = Kernel::Hardware,
-        /// How strong the warp is: 1 gives errors of the projection the same size near and far, 0 a uniform map.
+        /// Strength of the warp: 1 makes the errors of the projection equal near and far, 0 gives a
+        /// uniform map.
         strength: f64 = 1.0, in 0.0..=100.0, live true,
     }
 }
@@ -25,7 +27,7 @@ settings! {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: "lispsm",
     title: "Light-space perspective shadow map",
-    summary: "Warps the depth map along the view by a perspective across the light, as much as makes errors near and far the same.",
+    summary: "Warps the depth map by a perspective along the view that makes errors near and far equal.",
     source: "SG \"Perspective Shadow Maps\"; Wimmer et al. 2004",
     family: Family::FittedMaps,
     filter: None,

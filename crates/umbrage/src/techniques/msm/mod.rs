@@ -29,7 +29,8 @@ settings! {
         #[flatten] map: Map,
         #[flatten] cover: Cover,
         #[flatten] filtering: Filtering,
-        /// Shares of light up to this count as none, the rest is stretched: takes light that bleeds through off.
+        /// Shares of light up to this value count as none, and the others are stretched. This
+        /// removes light that bleeds through.
         bleeding: f64 = 0.1, in 0.0..=0.9,
     }
 }
@@ -38,7 +39,7 @@ settings! {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: "msm",
     title: "Moment shadow maps",
-    summary: "Filters four powers of depth; the sharpest bound on the share of light that they give.",
+    summary: "Filters four powers of depth and takes the sharpest bound that they give on the share of light.",
     source: "beyond: Peters and Klein 2015",
     family: Family::MomentMaps,
     filter: Some(FilterUse { warped: true }),

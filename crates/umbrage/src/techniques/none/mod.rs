@@ -29,7 +29,7 @@ impl Configure for NoShadow {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: "none",
     title: "No shadow",
-    summary: "Every point sees the whole light; the control.",
+    summary: "No shadow at all: every point sees the whole light. The control.",
     source: "ZA 5.4",
     family: Family::Control,
     filter: None,

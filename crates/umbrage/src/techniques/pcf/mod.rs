@@ -16,10 +16,10 @@ settings! {
         #[flatten] map: Map,
         #[flatten] cover: Cover,
         #[flatten] storage: Storage,
-        /// Which compares are averaged: a square of 3×3, 5×5 or 7×7 bilinear ones, the 2×2 texels that one hardware
-        /// compare takes, or a Vogel disc.
+        /// Which comparisons are averaged: a square of 3×3, 5×5 or 7×7 bilinear ones, the 2×2
+        /// texels of one hardware comparison, or a Vogel disc.
         kernel: Kernel = Kernel::Square3,
-        /// Compares of the disc.
+        /// Comparisons of the disc.
         taps: u32 = 16, in 1..=1024,
         /// Radius of the disc.
         radius: f64 = 2.5, in 0.0..=64.0, unit "texels",
@@ -30,7 +30,7 @@ settings! {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: "pcf",
     title: "Percentage-closer filtering",
-    summary: "Averages many compares with a depth map around each point: soft edges of constant width.",
+    summary: "Averages many comparisons with a depth map around each point: soft edges of constant width.",
     source: "ZA 3.2; FE 2.3.1",
     family: Family::DepthMaps,
     filter: Some(FilterUse { warped: true }),

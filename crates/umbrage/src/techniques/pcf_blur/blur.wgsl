@@ -41,7 +41,7 @@ fn quad_at(quad: vec2i, steps: i32) -> Quad {
     return Quad(ordered(values_at(at)), ordered(abs(depth - blur.background_depth)));
 }
 
-// Depth is linear on a plane. The surface goes on to the side where it changes least.
+// Depth is linear on a plane. The surface continues to the side where it changes least.
 fn plane_of(own: Quad, before: Quad, after: Quad) -> Plane {
     let back = own.depth - vec4f(before.depth.y, own.depth.x, before.depth.w, own.depth.z);
     let ahead = vec4f(own.depth.y, after.depth.x, own.depth.w, after.depth.z) - own.depth;

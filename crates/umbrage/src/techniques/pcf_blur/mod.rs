@@ -53,12 +53,13 @@ settings! {
         #[flatten] map: Map,
         #[flatten] cover: Cover,
         #[flatten] storage: Storage,
-        /// What is blurred: percentage-closer filtering with 3×3 compares, or one compare.
+        /// What is blurred: percentage-closer filtering with 3×3 comparisons, or a single
+        /// comparison.
         source: Source = Source::Square3,
-        /// Reach of the blur, two standard deviations.
+        /// Radius of the blur, two standard deviations.
         radius: f64 = 3.0, in 0.0..=64.0, unit "pixels",
-        /// Blurs only along a surface; off, light and shadow of one surface bleed into what is behind or before it on the
-        /// screen.
+        /// Blurs only along a surface. Without it, light and shadow of one surface bleed into
+        /// surfaces behind or in front of it on the screen.
         depth_aware: bool = true,
     }
 }
@@ -67,7 +68,7 @@ settings! {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: "pcf-blur",
     title: "Blurred percentage-closer filtering",
-    summary: "Blurs the visibility picture itself, along the surfaces it shows: soft edges of constant width on the screen.",
+    summary: "Blurs the picture of the shadow along the visible surfaces: soft edges of constant width on the screen.",
     source: "ZA 3.3",
     family: Family::DepthMaps,
     filter: Some(FilterUse { warped: true }),

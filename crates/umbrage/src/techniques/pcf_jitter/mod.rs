@@ -18,14 +18,15 @@ settings! {
         #[flatten] map: Map,
         #[flatten] cover: Cover,
         #[flatten] storage: Storage,
-        /// Compares in the penumbra; everywhere else the first 8 do.
+        /// Comparisons in the penumbra. Elsewhere the first 8 suffice.
         taps: u32 = 64, in 1..=1024,
         /// Radius of the disc.
         radius: f64 = 2.5, in 0.0..=256.0, unit "texels",
-        /// How neighbouring pixels differ: each pixel of a tile has its own jittered strata, or one set of taps turned by
-        /// blue noise, by interleaved gradient noise, or not at all (bands in place of grain).
+        /// How neighbouring pixels differ: each pixel of a tile has its own jittered strata; or all
+        /// use one set of taps, turned by blue noise, by interleaved gradient noise, or not at all
+        /// (bands instead of grain).
         noise: Noise = Noise::Stratified,
-        /// Pixels across and down after which stratified and blue noise repeat.
+        /// Width and height after which stratified and blue noise repeat.
         tile: u32 = 8, in 1..=32, unit "pixels",
     }
 }
@@ -34,7 +35,7 @@ settings! {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: "pcf-jitter",
     title: "Jittered percentage-closer filtering",
-    summary: "Averages compares over a jittered disc, a few of them to find the penumbra and the rest only there.",
+    summary: "Averages comparisons over a jittered disc: a few of them first, the rest only in the penumbra.",
     source: "ZA 3.4",
     family: Family::DepthMaps,
     filter: Some(FilterUse { warped: true }),

@@ -18,11 +18,12 @@ settings! {
         #[flatten] map: Map,
         #[flatten] cover: Cover,
         #[flatten] storage: Storage,
-        /// Taps a side of the grid that looks for blockers.
+        /// Taps along each side of the grid that searches for blockers.
         search: u32 = 5, in 1..=32,
-        /// Taps a side of the grid of compares.
+        /// Taps along each side of the grid of comparisons.
         kernel: u32 = 7, in 1..=32,
-        /// Looks for blockers only as far as bounds of the map's depth allow, not as far as the nearest caster would.
+        /// Searches for blockers only as far as bounds of the map's depths allow. Without it, the
+        /// search reaches as far as the nearest caster would require.
         bounds: bool = true,
     }
 }
@@ -31,7 +32,7 @@ settings! {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: "pcss",
     title: "Percentage-closer soft shadows",
-    summary: "Finds what is in the way of the light and filters on a grid as wide as the penumbra.",
+    summary: "Searches the map for blockers and filters it on a grid as wide as the penumbra that they cause.",
     source: "ZA 3.5",
     family: Family::DepthMaps,
     filter: Some(FilterUse { warped: false }),

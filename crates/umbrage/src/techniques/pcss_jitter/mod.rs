@@ -19,14 +19,15 @@ settings! {
         #[flatten] map: Map,
         #[flatten] cover: Cover,
         #[flatten] storage: Storage,
-        /// Taps that look for blockers.
+        /// Taps that search for blockers.
         search: u32 = 16, in 1..=1024,
-        /// Compares in the penumbra.
+        /// Comparisons in the penumbra.
         taps: u32 = 32, in 1..=1024,
-        /// How neighbouring pixels differ: each pixel of a tile has its own jittered strata, or one set of taps turned by
-        /// blue noise, by interleaved gradient noise, or not at all (bands in place of grain).
+        /// How neighbouring pixels differ: each pixel of a tile has its own jittered strata; or all
+        /// use one set of taps, turned by blue noise, by interleaved gradient noise, or not at all
+        /// (bands instead of grain).
         noise: Noise = Noise::Gradient,
-        /// Pixels across and down after which stratified and blue noise repeat.
+        /// Width and height after which stratified and blue noise repeat.
         tile: u32 = 8, in 1..=32, unit "pixels",
     }
 }
@@ -35,7 +36,7 @@ settings! {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: "pcss-jitter",
     title: "Jittered percentage-closer soft shadows",
-    summary: "Looks for what is in the way of the light and filters as widely as its distance and the light's size ask for.",
+    summary: "Searches and filters as `pcss` does, with jittered taps, most of them only in penumbras.",
     source: "ZA 4.4.3",
     family: Family::DepthMaps,
     filter: Some(FilterUse { warped: false }),

@@ -22,15 +22,18 @@ settings! {
     /// See the module.
     pub struct PlaneOptimal {
         #[flatten] map: Map,
-        /// The technique that looks the map up, with its own defaults but for the parameters that are set here.
+        /// The technique that looks up the maps. It keeps its own defaults, except for the
+        /// parameters that are set here.
         filter: FilterId<true> = FilterId::default(),
-        /// Of `pcf`, see there.
+        /// Kernel of `pcf`.
         kernel: Kernel = Kernel::Hardware,
-        /// The plane that the map is made for: the better one of that which most of the picture shows and the ground, or the level one at `height`.
+        /// The plane that the map is optimal for: the better one of the plane that covers most of
+        /// the picture and the ground, or the level plane at `height`.
         plane: Plane = Plane::Auto, live true,
-        /// Of the level plane.
+        /// Height of the level plane.
         height: f64 = 0.0, in -1e12..=1e12, unit "m", live true,
-        /// Warps less than is best for the plane where that makes texels smaller in the whole picture.
+        /// Warps less than is optimal for the plane where that makes texels smaller in the whole
+        /// picture.
         give_way: bool = true, live true,
     }
 }
@@ -39,7 +42,7 @@ settings! {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: "plane-optimal",
     title: "Plane-optimal shadow map",
-    summary: "Tilts the map so that on one plane, such as the ground, all texels are of one size on the screen.",
+    summary: "Warps the map so that on one plane, such as the ground, all texels have the same size on the screen.",
     source: "SG \"Thesis of Hamilton Yu-Ik Chong\"",
     family: Family::FittedMaps,
     filter: None,

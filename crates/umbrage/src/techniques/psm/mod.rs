@@ -22,15 +22,19 @@ settings! {
     /// See the module.
     pub struct Psm {
         #[flatten] map: Map,
-        /// The technique that looks the map up, with its own defaults but for the parameters that are set here.
+        /// The technique that looks up the maps. It keeps its own defaults, except for the
+        /// parameters that are set here.
         filter: FilterId<true> = FilterId::default(),
-        /// Of `pcf`, see there.
+        /// Kernel of `pcf`.
         kernel: Kernel = Kernel::Hardware,
-        /// How far the virtual camera stands behind the real one: as far as makes texels smallest on the screen, or not at all.
+        /// How far the virtual camera is moved back from the real one: to where texels are smallest
+        /// on the screen, or not at all.
         shift: Shift = Shift::Auto, live true,
-        /// Least distance of the virtual camera's near plane, which is at the nearest receiver if that is farther.
+        /// Least distance of the virtual camera's near plane. It lies at the nearest receiver if
+        /// that is farther.
         near_plane: f64 = 0.0, in 0.0..=1e12, unit "m", live true,
-        /// One map for every side of the post-perspective cube that the light's rays leave by, for spots and parallel light.
+        /// One map for every side of the post-perspective cube through which rays of the light
+        /// leave it, for spots and parallel light.
         cube: bool = false, live true,
     }
 }
@@ -39,7 +43,7 @@ settings! {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: "psm",
     title: "Perspective shadow map",
-    summary: "Takes the depth map in the space after the projection of a virtual camera: texels are small near the eye.",
+    summary: "Renders the depth map in the space after the projection of a virtual camera: fine texels near the eye.",
     source: "SG \"Perspective Shadow Maps\"",
     family: Family::FittedMaps,
     filter: None,

@@ -40,39 +40,40 @@ const PLAN_SHADER: Shader = Shader::new("plan of casters", include_str!("plan.wg
 settings! {
     /// See the module.
     pub struct Volume {
-        /// From where the shadows that a point is in are counted: from the eye, starting with
-        /// those the eye is in; from the eye where a caster can't shadow it, else from
-        /// infinity; from infinity; from the eye, starting with 0 (wrong in shadow); only
-        /// whether their number is odd (wrong where shadows overlap).
+        /// Where counting the shadows of a point starts: at the eye, with the number of shadows
+        /// that the eye is in (`z-pass-eye`); at the eye where a caster cannot shadow it, otherwise
+        /// at infinity (`auto`); at infinity (`z-fail`); at the eye, with 0 (`z-pass`, wrong where
+        /// the eye is in shadow); or only whether the number is odd (`xor`, wrong where shadows
+        /// overlap).
         count: Count = Count::ZPassEye,
-        /// Where silhouettes are found: by compute shaders, in vertex shaders that look at
-        /// every edge, or by the CPU.
+        /// Where silhouettes are found: in compute shaders, in vertex shaders that visit every
+        /// edge, or on the CPU.
         extrude: Extrude = Extrude::Compute,
-        /// What counts: 8 bits of stencil, which take 256 shadows on one point for none;
-        /// floats, which hold any number; or stencil where the casters can't have 256 layers
-        /// and floats elsewhere.
+        /// What counts: 8 bits of stencil, which take 256 shadows on one point for none; floats,
+        /// which hold any number; or stencil where the casters cannot have 256 layers, and floats
+        /// elsewhere.
         counter: Counter = Counter::Auto,
-        /// Whether the stencil counts fronts and backs at once or one after the other.
+        /// Whether the stencil counts front and back faces in one pass or in two.
         stencil: Stencil = Stencil::TwoSided,
-        /// Where shadows end: behind everything that is seen, nowhere, or where the light does
-        /// (the picture is the same, visibility beyond is not).
+        /// Where shadows end: behind everything visible, nowhere, or where the light does (the
+        /// picture is the same, visibility beyond the light's range is not).
         reach: Reach = Reach::Scene,
         /// What is left out because it changes nothing: everything that can be, nothing, or one
-        /// kind: casters that the light does not reach, casters that shadow nothing in view,
-        /// caps out of view, pixels beyond the light (the light's reach counts with `reach =
+        /// kind: casters that the light does not reach, casters that shadow nothing in view, caps
+        /// out of view, or pixels beyond the light (the light's range matters with `reach =
         /// finite`).
         cull: Culls = Culls::All,
-        /// Counts nothing at points beyond the light's range, for one more pass over the depth
-        /// (`reach = finite`).
+        /// Counts nothing at points beyond the light's range, at the cost of one more pass over the
+        /// depth (`reach = finite`).
         depth_bounds: bool = false,
-        /// Sides of parallel light: triangles that meet infinitely far away, or quads and dark
-        /// caps as for other lights.
+        /// Sides of parallel light: triangles that meet at infinity, or quads and dark caps as for
+        /// other lights.
         parallel: Parallel = Parallel::Triangles,
-        /// At most so many casters throw shadows, the most important ones by size on the
-        /// screen; 0: all.
+        /// At most this many casters have shadows, the most important ones by size on the screen; 0
+        /// means all.
         budget: u32 = 0, in 0..=1_000_000, unit "casters",
-        /// For hosts that cull faces or hide casters from the camera: counts all from infinity,
-        /// with both sides of meshes.
+        /// For hosts that cull faces or hide casters from the camera: counts all casters from
+        /// infinity, with both sides of meshes.
         unseen: bool = false,
     }
 }
@@ -81,8 +82,7 @@ settings! {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: "volume",
     title: "Shadow volumes",
-    summary: "Counts how many casters' shadows each point is in: hard shadows exact to the pixel. Alpha-masked triangles cast \
-              whole.",
+    summary: "Counts the shadow volumes that each point is in: hard shadows exact to the pixel. Ignores alpha masks.",
     source: "PX 3.2–3.4, 5; SG \"Practical and Robust Stenciled Shadow Volumes\"; ZA 2.4; GG 9",
     family: Family::Volumes,
     filter: None,

@@ -1,4 +1,4 @@
-//! A plan of the scene from above: which casters throw shadows this frame, and why others do not.
+//! A plan of the scene from above: which casters cast shadows this frame, and why others do not.
 
 use super::PLAN_SHADER;
 use super::select::{Fate, Selection};

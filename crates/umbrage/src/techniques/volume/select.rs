@@ -1,4 +1,4 @@
-//! Which casters throw shadows that matter, and from where each is counted.
+//! Which casters cast shadows that matter, and from where each is counted.
 
 use super::options::{Count, Options, Reach};
 use super::situation::{Situation, common};

@@ -71,7 +71,7 @@ impl<'a> Situation<'a> {
         shadow_hull::shadow_end(&self.seen, bounds, self.light)
     }
 
-    /// A box around what a caster's box throws onto a plane that [`Situation::end_of`] gave.
+    /// A box around the shadow of a caster's box on a plane that [`Situation::end_of`] gave.
     pub fn shadow_on(&self, bounds: &Bounds, end: DVec4) -> Bounds {
         let normal = end.truncate();
         let dark = bounds.corners().map(|p| {

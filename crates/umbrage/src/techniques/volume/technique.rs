@@ -141,7 +141,7 @@ impl Volume {
         let range = view.light.range.filter(|_| bounded);
         self.counter.prepare(gpu, view, self.kind, range, own.as_ref(), &self.pipelines.read_counts);
         self.pipelines.prepare_resolve(gpu, self.counter.key, self.options.count == Count::Xor);
-        // All that the way of counting may come to, so that none is made when the eye comes into a shadow.
+        // All that the way of counting may need, so that none is made when the eye comes into a shadow.
         for &cull in self.rounds() {
             for &part in self.options.count.parts() {
                 self.pipelines.prepare(gpu, self.key(part, cull));

@@ -29,7 +29,8 @@ settings! {
         #[flatten] map: Map,
         #[flatten] cover: Cover,
         #[flatten] filtering: Filtering,
-        /// Shares of light up to this count as none, the rest is stretched: takes light that bleeds through off.
+        /// Shares of light up to this value count as none, and the others are stretched. This
+        /// removes light that bleeds through.
         bleeding: f64 = 0.2, in 0.0..=0.9,
     }
 }
@@ -38,7 +39,7 @@ settings! {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: "vsm",
     title: "Variance shadow maps",
-    summary: "Filters depth and its square; their variance says how much of the light may come through.",
+    summary: "Filters depth and its square; their variance bounds the share of light.",
     source: "FE 2.3.1",
     family: Family::MomentMaps,
     filter: Some(FilterUse { warped: true }),

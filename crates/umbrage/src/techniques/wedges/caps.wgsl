@@ -27,7 +27,7 @@ fn weights_of(caster: u32, faces_light: bool) -> vec2f {
     return vec2f(f32(both || faces_light), f32(both || !faces_light));
 }
 
-// From where the light's shadows are thrown: a place, or a direction, relative to the eye.
+// From where the light's shadows are cast: a place, or a direction, relative to the eye.
 fn source(caster: u32) -> vec3f {
     return light.center + from_light(light, casters[caster].seen_from);
 }

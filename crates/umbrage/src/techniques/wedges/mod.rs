@@ -31,29 +31,29 @@ settings! {
     /// See the module.
     pub struct Wedges {
         /// What is drawn at once: all wedges of the light; every caster whose silhouette is one
-        /// convex loop, and the others as they are; or one wedge after the other, in two halves.
+        /// convex loop, and the others as with `all`; or single wedges, in two halves.
         batch: Batch = Batch::All,
-        /// What becomes of casters that hide the same part of the light: their shares add up, or
-        /// the largest counts.
+        /// What happens where casters hide the same part of the light: their shares are added, or
+        /// the largest one counts.
         combine: Combine = Combine::Sum,
-        /// Who finds what is in no wedge: the shader, or a stencil mask before it; auto: the mask
-        /// for one wedge after the other.
+        /// What removes pixels that are in no wedge: the shader, or a stencil mask before it.
+        /// `auto` takes the mask for single wedges only.
         cull: Cull = Cull::Auto,
-        /// Size of the buffer that shares add up in, against the picture.
+        /// Size of the buffer in which shares are added, relative to the picture.
         scale: Scale = Scale::Whole,
-        /// Time on the GPU by which the scale is chosen in every frame; 0 leaves it.
+        /// GPU time by which the scale is chosen in every frame; 0 keeps `scale`.
         budget_ms: f64 = 0.0, in 0.0..=1000.0, unit "ms",
-        /// Columns and rows that the light is split into, each piece with silhouettes of its own;
-        /// a line into that many parts.
+        /// Columns and rows into which the light is split, each piece with silhouettes of its own.
+        /// A line is split into that many parts.
         split_light: u32 = 1, in 1..=3,
-        /// Where the share that an edge covers of a sphere, an ellipsoid, a disc or a sun comes
-        /// from: a formula, or two look-ups of 32³ values. Textured rectangles always have a
-        /// table, other lights none.
+        /// How the share that an edge covers of a sphere, an ellipsoid, a disc or a sun is found:
+        /// by a formula, or by two look-ups of 32³ values. Textured rectangles always have a table,
+        /// other lights none.
         coverage: Coverage = Coverage::Analytic,
         /// Radius of point and spot lights, which are hard without one.
         radius: f64 = 0.0, in 0.0..=1000.0, unit "m",
-        /// For hosts that cull faces or hide casters from the camera: counts all from infinity,
-        /// with both sides of meshes.
+        /// For hosts that cull faces or hide casters from the camera: counts all casters from
+        /// infinity, with both sides of meshes.
         unseen: bool = false,
     }
 }
@@ -62,8 +62,8 @@ settings! {
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: options::ID,
     title: "Penumbra wedges",
-    summary: "Corrects hard shadow volumes by what every silhouette edge covers of the light: soft shadows without noise, exact \
-              where the silhouette is the same from all of the light.",
+    summary: "Corrects hard shadow volumes by what every silhouette edge covers of the light: soft shadows without \
+              noise, exact where the silhouette is the same from all of the light.",
     source: "PX 4, 6, 7.2; SG \"A Soft Shadow Volume Algorithm\"",
     family: Family::AreaLights,
     filter: None,

@@ -1,4 +1,4 @@
-//! All wedges of a piece in one draw, whatever throws the shadows.
+//! All wedges of a piece in one draw, whatever casts the shadows.
 
 use super::draws::{self, Draw};
 use super::piece::{Piece, Recording, prepare_draws};

@@ -45,7 +45,7 @@ struct Cap {
     dark: array<vec4f, 3>,
     // Its plane n · p = w relative to the eye, n away from the light.
     plane: vec4f,
-    // As those of a wedge; 0 if it throws no shadow.
+    // As those of a wedge; 0 if it casts no shadow.
     weights: vec2f,
     // How far rounding moves it, metres.
     off: f32,

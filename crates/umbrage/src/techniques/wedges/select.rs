@@ -1,4 +1,4 @@
-//! Which casters throw shadows into the view, and from where each is counted.
+//! Which casters cast shadows into the view, and from where each is counted.
 
 use crate::area_light::{Form, casters_in_view, may_touch};
 use crate::casters::{MeshEdges, Placed, before_eye};
@@ -15,7 +15,7 @@ use umbrage_core::silhouette::Rule;
 const MOST_OPEN: f64 = 0.05;
 const MOST_FLAT: f64 = 0.1;
 
-/// Sides end behind what is seen by this share of its size: more than the rasteriser's own rounding of corners comes to.
+/// Sides end behind what is seen by this share of its size: more than the rasteriser's own rounding of corners amounts to.
 const BEHIND: f64 = 2e-3;
 
 /// Triangles that are looked at together, see `caps.wgsl`.
@@ -25,10 +25,10 @@ pub(super) const CHUNK: u32 = 64;
 #[derive(Default)]
 pub(super) struct Selection {
     pub throws: Vec<Throw>,
-    /// Of each throw the shadows that the eye is in: of its sides that face the light, and of those that face away, see `Wedge::weights`.
+    /// Of each caster the shadows that the eye is in: of its sides that face the light, and of those that face away, see `Wedge::weights`.
     /// `None`: it is counted from infinity.
     pub eye_counts: Vec<Option<[u32; 2]>>,
-    /// Of casters that are counted from infinity, chunks of triangles: the number of the throw and the first triangle.
+    /// Of casters that are counted from infinity, chunks of triangles: the number of the caster and the first triangle.
     pub caps: Vec<[u32; 2]>,
     found: Vec<u32>,
 }
@@ -108,7 +108,7 @@ impl Selection {
         self.eye_counts.push(eye_count);
     }
 
-    /// The chunks of a throw's surface.
+    /// The chunks of a caster's surface.
     pub fn caps_of(&self, throw: u32) -> Range<u32> {
         let first = self.caps.partition_point(|chunk| chunk[0] < throw);
         first as u32..self.caps.partition_point(|chunk| chunk[0] <= throw) as u32
@@ -124,7 +124,7 @@ fn weights(throw: &Throw, [facing, away]: [u32; 2]) -> [u32; 2] {
     }
 }
 
-/// A closed body throws the shadow of its far side: both sides would cover the light twice. Of one with holes, or whose inside is seen, both
+/// A closed body casts the shadow of its far side: both sides would cover the light twice. Of one with holes, or whose inside is seen, both
 /// count apart. Every other mesh is a sheet, which covers the light once wherever it is.
 fn throw(place: u32, light: DVec4, mesh: &Adjacency, end: DVec4, shows_inside: bool) -> Throw {
     let has_holes = mesh.open_share <= MOST_OPEN && mesh.flatness <= MOST_FLAT;

@@ -129,7 +129,7 @@ impl Wedges {
         self.targets.get(at)
     }
 
-    /// Draws all pieces and turns what they come to into visibility.
+    /// Draws all pieces and turns their shares into visibility.
     fn draw(
         &self,
         passes: &mut Passes<'_>,

@@ -118,7 +118,7 @@ impl Apart {
         }
     }
 
-    /// Adds what a loop or a caster came to.
+    /// Adds the counts of a loop or a caster.
     fn transfer(
         &self,
         passes: &mut Passes<'_>,

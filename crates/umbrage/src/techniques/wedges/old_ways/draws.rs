@@ -18,7 +18,7 @@ const DRAWS: [Shader; 3] = [
 pub(super) const HALVES: Shader =
     shader("halves of wedges", include_str!("halves.wgsl")).with_constants(&[("Half", HALF_RECORD as f64)]);
 
-/// What a loop or a caster that was drawn apart comes to.
+/// What a loop or a caster that was drawn apart counted.
 pub(super) const APART: Shader = shader("a loop's shares", include_str!("apart.wgsl"));
 
 /// All of them.
