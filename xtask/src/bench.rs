@@ -1,4 +1,5 @@
-//! Measures the standard set of scenes and files the numbers with date, machine, driver, commit and command.
+//! Measures the standard set of scenes and files the numbers with date, machine, driver, commit and
+//! command.
 
 use crate::{
     setup,

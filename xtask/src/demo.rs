@@ -1,4 +1,5 @@
-//! From nothing to a picture book: every technique on a few built-in scenes against ray-traced ground truth.
+//! From nothing to a picture book: every technique on a few built-in scenes against ray-traced
+//! ground truth.
 
 use crate::{
     setup,
@@ -9,7 +10,8 @@ use std::time::Instant;
 
 const FOLDER: &str = "out/demo";
 
-/// Those that all techniques can be seen on in a minute or two on a software driver, which draws a frame in tens of milliseconds.
+/// Those that all techniques can be seen on in a minute or two on a software driver, which draws a
+/// frame in tens of milliseconds.
 const SCENES: [&str; 6] = ["primitives", "contact", "lantern", "atrium:0.25", "city:0.25", "terrain:0.25"];
 
 /// Builds, sets up, compares; ends with the file to open.

@@ -1,4 +1,5 @@
-//! What the documentation takes from the program: tables of the registry, numbers of a stored run, and the first pictures.
+//! What the documentation takes from the program: tables of the registry, numbers of a stored run,
+//! and the first pictures.
 
 use crate::{
     bench, setup,
@@ -42,7 +43,8 @@ pub fn pictures() -> Result<()> {
     Ok(())
 }
 
-/// Compares all techniques on the scene of the README, files the numbers under `benchmarks/`, and writes the tables.
+/// Compares all techniques on the scene of the README, files the numbers under `benchmarks/`, and
+/// writes the tables.
 pub fn numbers() -> Result<()> {
     setup::run(Profile::Release)?;
     let rest = ["--samples", RAYS, "--frames", "9", "-o", "out/docs", "--json"];

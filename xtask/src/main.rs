@@ -1,4 +1,5 @@
-//! `cargo xtask`: the workspace's own chores. Each does its set-up itself, so that a fresh clone needs Rust and git only.
+//! `cargo xtask`: the workspace's own chores. Each does its set-up itself, so that a fresh clone
+//! needs Rust and git only.
 
 mod bench;
 mod demo;

@@ -1,11 +1,13 @@
-//! Finds a usable graphics adapter, or installs a software one where that is a matter of one command.
+//! Finds a usable graphics adapter, or installs a software one where that is a matter of one
+//! command.
 
 use crate::shell::{self, Profile};
 use anyhow::{Context, Result, bail};
 use serde_json::Value;
 use std::{fs, path::Path, process::Command};
 
-/// Ends with a usable adapter, or with an error that says what to install. Tells whether there is only a software adapter.
+/// Ends with a usable adapter, or with an error that says what to install. Tells whether there is
+/// only a software adapter.
 pub fn run(profile: Profile) -> Result<bool> {
     shell::build(profile)?;
     find_or_install(&|| Ok(shell::umbrage(profile, &LIST)))

@@ -7,10 +7,12 @@ use std::process::Command;
 /// The test that also needs Python, by a part of its name.
 const WITH_PYTHON: &str = "the_numbers_are_those_of_the_script";
 
-/// Runs every test of the workspace; `rest` goes to `cargo test` (a filter, `-- --nocapture`). Tests that need the shared
-/// references are ignored by name; where the references are there they run, else the last lines say how many did not.
+/// Runs every test of the workspace; `rest` goes to `cargo test` (a filter, `-- --nocapture`).
+/// Tests that need the shared references are ignored by name; where the references are there they
+/// run, else the last lines say how many did not.
 pub fn run(rest: &[&str]) -> Result<()> {
-    // The tests are built first, with their command: building that by itself would compile wgpu twice.
+    // The tests are built first, with their command: building that by itself would compile wgpu
+    // twice.
     let mut build = shell::cargo();
     build.args(["test", "--workspace", "--no-run"]);
     shell::run(build)?;

@@ -1,4 +1,5 @@
-//! The layering of the workspace, read from `cargo metadata` and from the sources of the techniques.
+//! The layering of the workspace, read from `cargo metadata` and from the sources of the
+//! techniques.
 
 use cargo_metadata::{DependencyKind, Metadata, MetadataCommand, Package};
 use std::{collections::BTreeSet, fs, path::Path};

@@ -1,4 +1,5 @@
-//! The prose of the project: links that work, words that a reader of the field knows, comments that fit on a page.
+//! The prose of the project: links that work, words that a reader of the field knows, comments that
+//! fit on a page.
 
 use std::{collections::HashSet, fs, path::Path, path::PathBuf};
 
@@ -104,7 +105,8 @@ fn broken_links_are_found() {
 
 // Words.
 
-/// Phrases that mean something here that readers would have to guess, and what to say in their place.
+/// Phrases that mean something here that readers would have to guess, and what to say in their
+/// place.
 const BANNED: &[(&str, &str)] = &[
     ("ball", "sphere, sphere light or bounding sphere"),
     ("balls", "spheres"),
@@ -164,7 +166,8 @@ fn prose<'a>(line: &'a str, inside: &mut Inside) -> Vec<&'a str> {
     }
 }
 
-/// Where a string ends in a line, its length where it does not. Escapes count where the string is not raw.
+/// Where a string ends in a line, its length where it does not. Escapes count where the string is
+/// not raw.
 fn end_of_string(line: &str, end: &str) -> usize {
     let mut escaped = false;
     for (at, c) in line.char_indices() {
@@ -180,7 +183,8 @@ fn is_in_word(c: char) -> bool {
     c.is_alphanumeric() || "-_'".contains(c)
 }
 
-/// Every word of a text that people read, in lower case, with its line; an empty word where prose is interrupted.
+/// Every word of a text that people read, in lower case, with its line; an empty word where prose
+/// is interrupted.
 fn words(name: &str, text: &str) -> Vec<(usize, String)> {
     let (mut found, mut inside) = (Vec::new(), None);
     for (number, line) in text.lines().enumerate() {

@@ -13,17 +13,18 @@ use glam::{DVec3, DVec4, Vec4};
 /// No second triangle.
 pub const NONE: u32 = u32::MAX;
 
-/// An edge between two positions, with one or two of the triangles at it. Where more than two triangles meet there are
-/// several of them: first pairs that run in opposite directions, then pairs that run alike, then a single triangle.
+/// An edge between two positions, with one or two of the triangles at it. Where more than two
+/// triangles meet there are several of them: first pairs that run in opposite directions, then
+/// pairs that run alike, then a single triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Edge {
     /// Indices into [`Mesh::positions`], of all vertices at the same place the first.
     pub vertices: [u32; 2],
-    /// Indices into [`Adjacency::triangles`]. The first triangle runs along the edge from `vertices[0]` to
-    /// `vertices[1]`; the second may be [`NONE`].
+    /// Indices into [`Adjacency::triangles`]. The first triangle runs along the edge from
+    /// `vertices[0]` to `vertices[1]`; the second may be [`NONE`].
     pub triangles: [u32; 2],
-    /// True where the second triangle runs along the edge in the direction of the first: one of them is inside out.
-    /// False where there is no second.
+    /// True where the second triangle runs along the edge in the direction of the first: one of
+    /// them is inside out. False where there is no second.
     pub same_direction: bool,
 }
 
@@ -43,29 +44,34 @@ impl Edge {
 /// The triangles of a mesh, their planes and what joins them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Adjacency {
-    /// Indices into [`Mesh::positions`], of all vertices at the same place the first. Triangles with a corner that does
-    /// not exist or is not finite and those with two corners at one place are left out. Those whose corners lie in
-    /// a line stay: they close seams.
+    /// Indices into [`Mesh::positions`], of all vertices at the same place the first. Triangles
+    /// with a corner that does not exist or is not finite and those with two corners at one place
+    /// are left out. Those whose corners lie in a line stay: they close seams.
     pub triangles: Vec<[u32; 3]>,
     /// Which triangle of the mesh each of them is, rising.
     pub numbers: Vec<u32>,
-    /// Every edge of every triangle is in exactly one of them. Neighbours in space are mostly neighbours here.
+    /// Every edge of every triangle is in exactly one of them. Neighbours in space are mostly
+    /// neighbours here.
     pub edges: Vec<Edge>,
-    /// One a triangle, a unit normal n and an offset w: n · (p − `center`) + w is positive in front. All zero for a
-    /// triangle without area. Computed in double precision.
+    /// One a triangle, a unit normal n and an offset w: n · (p − `center`) + w is positive in
+    /// front. All zero for a triangle without area. Computed in double precision.
     pub planes: Vec<Vec4>,
     /// The middle of the box around the triangles.
     pub center: DVec3,
-    /// True where at every edge as many triangles run one way as the other; for no triangles too. As many triangles then
-    /// show their front as their back along any line between two points outside the box, whichever the shape.
+    /// True where at every edge as many triangles run one way as the other; for no triangles too.
+    /// As many triangles then show their front as their back along any line between two points
+    /// outside the box, whichever the shape.
     pub is_closed: bool,
-    /// Share of the edges, 0…1, that keep it from being closed: holes, borders, and triangles wound against their neighbours.
+    /// Share of the edges, 0…1, that keep it from being closed: holes, borders, and triangles wound
+    /// against their neighbours.
     pub open_share: f64,
-    /// Length of the sum of all triangles' areas as vectors over the sum of their lengths, 0…1: 0 for a closed mesh, 1 for a flat one.
+    /// Length of the sum of all triangles' areas as vectors over the sum of their lengths, 0…1: 0
+    /// for a closed mesh, 1 for a flat one.
     pub flatness: f64,
-    /// No more triangles than this that face away from the light (for meshes that are not closed: triangles) lie on any
-    /// line that starts at a light outside the box. Convex parts, up to the rounding of their vertices, count once
-    /// (twice), of others every second (every) triangle. Of a mesh with joints no part is taken for convex.
+    /// No more triangles than this that face away from the light (for meshes that are not closed:
+    /// triangles) lie on any line that starts at a light outside the box. Convex parts, up to the
+    /// rounding of their vertices, count once (twice), of others every second (every) triangle. Of
+    /// a mesh with joints no part is taken for convex.
     pub layers: u32,
     /// Length of the longest edge, in units of the mesh.
     pub longest_edge: f64,
@@ -114,10 +120,12 @@ fn planes(triangles: &[[u32; 3]], mesh: &Mesh, center: DVec3) -> impl Iterator<I
     triangles.iter().map(move |t| plane(mesh.corners(*t).map(|p| p.as_dvec3() - center)).as_vec4())
 }
 
-/// The mesh with every triangle that repeats an earlier one's corners, whichever way round, shrunk to a point; numbers stay.
+/// The mesh with every triangle that repeats an earlier one's corners, whichever way round, shrunk
+/// to a point; numbers stay.
 ///
-/// A copy adds nothing to a shadow but sides on top of one another, and where unequal numbers of copies meet a side in the
-/// middle of a surface, where rounding may put a pixel on the wrong side of it.
+/// A copy adds nothing to a shadow but sides on top of one another, and where unequal numbers of
+/// copies meet a side in the middle of a surface, where rounding may put a pixel on the wrong side
+/// of it.
 pub fn without_copies(mesh: &Mesh) -> Mesh {
     let welded = weld_mesh(mesh);
     let place = |i: u32| welded.get(i as usize).copied().unwrap_or(NONE);
@@ -149,7 +157,8 @@ fn plane([a, b, c]: [DVec3; 3]) -> DVec4 {
     if length > 0.0 { (normal / length).extend(-normal.dot(a) / length) } else { DVec4::ZERO }
 }
 
-/// A triangle at an edge, packed so that numbers sort by the edge, then by direction, then by triangle.
+/// A triangle at an edge, packed so that numbers sort by the edge, then by direction, then by
+/// triangle.
 struct Use(u128);
 
 impl Use {
@@ -184,8 +193,8 @@ fn edges(triangles: &[[u32; 3]]) -> Vec<Edge> {
     edges
 }
 
-/// Splits the triangles at one edge into records of at most two. Opposite ones go together, so that where both face the
-/// light, or neither does, they cancel.
+/// Splits the triangles at one edge into records of at most two. Opposite ones go together, so that
+/// where both face the light, or neither does, they cancel.
 fn pair_up(at_edge: &[Use], edges: &mut Vec<Edge>) {
     let (forward, backward) = at_edge.split_at(at_edge.partition_point(|u| !u.is_backward()));
     let pairs = forward.len().min(backward.len());
@@ -214,7 +223,8 @@ pub(crate) mod tests {
         Mesh { positions: positions.to_vec(), indices: triangles.as_flattened().to_vec(), ..Mesh::default() }
     }
 
-    /// What must hold for any mesh: every directed edge of every triangle is in one record, on the side it says.
+    /// What must hold for any mesh: every directed edge of every triangle is in one record, on the
+    /// side it says.
     fn checked(mesh: &Mesh) -> Adjacency {
         let adjacency = Adjacency::of(mesh);
         let of_triangles = |t: &[u32; 3], i: u32| [[t[0], t[1], i], [t[1], t[2], i], [t[2], t[0], i]];
@@ -364,7 +374,8 @@ pub(crate) mod tests {
 
     #[test]
     fn triangles_without_area_close_a_seam() {
-        // The first triangle of the cube split in the middle of an edge that its neighbour does not split.
+        // The first triangle of the cube split in the middle of an edge that its neighbour does not
+        // split.
         let mut cube = primitive::cube();
         let [a, b, c, m] = [cube.indices[0], cube.indices[1], cube.indices[2], cube.positions.len() as u32];
         cube.positions.push((cube.positions[a as usize] + cube.positions[b as usize]) * 0.5);

@@ -1,7 +1,7 @@
 //! The camera: where it is, and its reversed infinite projection.
 //!
-//! View space looks along −Z with +Y up. Clip space is that of WebGPU: x and y in [−w, w], z in [0, w];
-//! depth is 1 at the near plane and falls to 0 at infinity.
+//! View space looks along −Z with +Y up. Clip space is that of WebGPU: x and y in [−w, w], z in [0,
+//! w]; depth is 1 at the near plane and falls to 0 at infinity.
 
 use crate::frustum::Frustum;
 use glam::{DAffine3, DMat3, DMat4, DVec2, DVec3, DVec4};
@@ -28,7 +28,8 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// Unit vectors to the right, up and forward. An `up` along the line of sight is replaced by another one.
+    /// Unit vectors to the right, up and forward. An `up` along the line of sight is replaced by
+    /// another one.
     pub fn axes(&self) -> [DVec3; 3] {
         let forward = (self.target - self.eye).normalize_or(DVec3::NEG_Z);
         let side = forward.cross(self.up);
@@ -54,8 +55,9 @@ impl Camera {
         )
     }
 
-    /// Direction (not normalised: its share along `forward` is 1) of the ray through pixel (`x`, `y`) of a
-    /// `width` × `height` picture; whole numbers are pixel corners, the centre of the first pixel is (0.5, 0.5).
+    /// Direction (not normalised: its share along `forward` is 1) of the ray through pixel (`x`,
+    /// `y`) of a `width` × `height` picture; whole numbers are pixel corners, the centre of the
+    /// first pixel is (0.5, 0.5).
     pub fn ray(&self, pixel: DVec2, width: u32, height: u32) -> DVec3 {
         let [right, up, forward] = self.axes();
         let t = (self.fov_y_deg.to_radians() * 0.5).tan();
@@ -78,7 +80,8 @@ pub struct CameraView {
     pub eye: DVec3,
     /// World to view space.
     pub view_from_world: DAffine3,
-    /// View to clip space; any projection with WebGPU's clip volume, reversed or not, finite or not.
+    /// View to clip space; any projection with WebGPU's clip volume, reversed or not, finite or
+    /// not.
     pub clip_from_view: DMat4,
 }
 
@@ -103,7 +106,8 @@ impl CameraView {
         self.clip_from_view * DMat4::from(self.view_from_world)
     }
 
-    /// The depth that the buffer holds where nothing was drawn: that of a point infinitely far along the view.
+    /// The depth that the buffer holds where nothing was drawn: that of a point infinitely far
+    /// along the view.
     pub fn background_depth(&self) -> f32 {
         let far = self.clip_from_view * DVec4::new(0.0, 0.0, -1.0, 0.0);
         // A reversed projection has its far end at 0, finite or not; others at 1.

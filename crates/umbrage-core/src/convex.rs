@@ -6,15 +6,16 @@ use crate::{
 };
 use glam::{DVec3, DVec4};
 
-/// A convex body as planes: a point p is inside where `plane · (p, 1) ≥ 0` for all of them. Without planes it is all
-/// of space.
+/// A convex body as planes: a point p is inside where `plane · (p, 1) ≥ 0` for all of them. Without
+/// planes it is all of space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Convex {
     planes: Vec<DVec4>,
 }
 
-/// Planes that a point is outside of by less than this share of its distance are kept, and moved out to it. Too large
-/// a value costs planes that bound nothing, too small a one faces that rounding has bent.
+/// Planes that a point is outside of by less than this share of its distance are kept, and moved
+/// out to it. Too large a value costs planes that bound nothing, too small a one faces that
+/// rounding has bent.
 const BENT: f64 = 1e-7;
 
 /// Three points are taken to be on a line where the sine of the angle at one of them is less.
@@ -24,13 +25,15 @@ const STRAIGHT: f64 = 1e-10;
 const SLACK: f64 = 1e-12;
 
 impl Convex {
-    /// The convex hull of homogeneous points, at most about a dozen: points with w ≠ 0, directions to points at
-    /// infinity with w = 0. The body is never smaller than the hull, however degenerate that is. Without a point that
-    /// is finite, or with one that is not a number, it is all of space.
+    /// The convex hull of homogeneous points, at most about a dozen: points with w ≠ 0, directions
+    /// to points at infinity with w = 0. The body is never smaller than the hull, however
+    /// degenerate that is. Without a point that is finite, or with one that is not a number, it is
+    /// all of space.
     ///
-    /// Besides the faces of the hull there are the planes that touch it along an edge and parallel to an axis, or in a
-    /// point and perpendicular to one: with them the test of a box misses no separating plane (Gottschalk's
-    /// separating axis theorem), and a hull without thickness needs no case of its own.
+    /// Besides the faces of the hull there are the planes that touch it along an edge and parallel
+    /// to an axis, or in a point and perpendicular to one: with them the test of a box misses no
+    /// separating plane (Gottschalk's separating axis theorem), and a hull without thickness needs
+    /// no case of its own.
     pub fn hull(points: &[DVec4]) -> Self {
         let finite = points.iter().find(|p| p.w != 0.0);
         let origin = finite.map_or(DVec3::ZERO, |p| p.truncate() / p.w);
@@ -56,7 +59,8 @@ impl Convex {
         Self { planes }
     }
 
-    /// Unit normals that point inwards, with the offset in `w`. Some may bound nothing that others don't.
+    /// Unit normals that point inwards, with the offset in `w`. Some may bound nothing that others
+    /// don't.
     pub fn planes(&self) -> &[DVec4] {
         &self.planes
     }
@@ -81,8 +85,8 @@ impl Volume for Convex {
     }
 }
 
-/// Height over a plane of the corner made of `ahead` where the normal points up an axis and of `behind` elsewhere. It is
-/// rounded up, for a body may reach far from where its points are.
+/// Height over a plane of the corner made of `ahead` where the normal points up an axis and of
+/// `behind` elsewhere. It is rounded up, for a body may reach far from where its points are.
 fn height(plane: DVec4, ahead: DVec3, behind: DVec3) -> f64 {
     let normal = plane.truncate();
     let corner = DVec3::select(normal.cmpge(DVec3::ZERO), ahead, behind);
@@ -113,7 +117,8 @@ impl Hull {
         Self { origin, points, finite, own, slack: SLACK * (size + origin.abs().max_element()) }
     }
 
-    /// Adds the plane through three points, the first of them finite, with either side where nothing is beyond it.
+    /// Adds the plane through three points, the first of them finite, with either side where
+    /// nothing is beyond it.
     fn add_planes(&self, [i, j, k]: [usize; 3], planes: &mut Vec<DVec4>) {
         let base = self.points[i].truncate();
         let from_base = |p: DVec4| p.truncate() - base * p.w;
@@ -143,8 +148,8 @@ impl Hull {
         }
     }
 
-    /// The plane with this normal that has all points inside; `None` where a direction leads out of it, against which
-    /// no offset helps. That costs little: the planes beside it stay.
+    /// The plane with this normal that has all points inside; `None` where a direction leads out of
+    /// it, against which no offset helps. That costs little: the planes beside it stay.
     fn supporting(&self, normal: DVec3) -> Option<DVec4> {
         let directions = &self.points[self.finite..self.own];
         if directions.iter().any(|d| normal.dot(d.truncate()) < -4.0 * f64::EPSILON) {

@@ -13,7 +13,8 @@ pub struct Frustum {
 }
 
 impl Frustum {
-    /// The volume of WebGPU's clip space (x, y in [−w, w], z in [0, w]) seen from the space `clip_from` starts in.
+    /// The volume of WebGPU's clip space (x, y in [−w, w], z in [0, w]) seen from the space
+    /// `clip_from` starts in.
     pub fn of(clip_from: &DMat4) -> Self {
         let row = |i: usize| clip_from.row(i);
         let w = row(3);
@@ -100,8 +101,9 @@ impl Frustum {
             points.extend(c);
             return;
         }
-        // The faces of the box, cut by every plane; and the edges of the frustum, cut by the box, come out of the
-        // same polygons only where they lie in a face, so the frustum's own corners inside the box are added too.
+        // The faces of the box, cut by every plane; and the edges of the frustum, cut by the box,
+        // come out of the same polygons only where they lie in a face, so the frustum's own corners
+        // inside the box are added too.
         const FACES: [[usize; 4]; 6] =
             [[0, 2, 6, 4], [1, 5, 7, 3], [0, 4, 5, 1], [2, 3, 7, 6], [0, 1, 3, 2], [4, 6, 7, 5]];
         let (mut polygon, mut cut) = (Vec::with_capacity(16), Vec::with_capacity(16));
@@ -119,7 +121,8 @@ impl Frustum {
         points.extend(self.corners.iter().copied().filter(|p| p.cmpge(inside.min).all() && p.cmple(inside.max).all()));
     }
 
-    /// The points where three planes meet inside the volume: eight, or four for an infinite far plane.
+    /// The points where three planes meet inside the volume: eight, or four for an infinite far
+    /// plane.
     pub fn corners(&self) -> &[DVec3] {
         &self.corners
     }

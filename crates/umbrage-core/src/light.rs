@@ -95,8 +95,9 @@ pub enum LightShape {
         up: DVec3,
         /// Width across `up`, height along it.
         size: DVec2,
-        /// Index into [`crate::Scene::textures`]: what it shows, weighting its points by luminance. Row 0 is on the
-        /// side of `up`, column 0 on the left for somebody who looks at the emitting side.
+        /// Index into [`crate::Scene::textures`]: what it shows, weighting its points by luminance.
+        /// Row 0 is on the side of `up`, column 0 on the left for somebody who looks at the
+        /// emitting side.
         texture: Option<usize>,
     },
     /// A thin tube.
@@ -198,7 +199,8 @@ impl LightKinds {
 }
 
 impl LightShape {
-    /// Which kind it is. A shape without extent is still of its own kind: a sphere of radius 0 is a sphere.
+    /// Which kind it is. A shape without extent is still of its own kind: a sphere of radius 0 is a
+    /// sphere.
     pub fn kind(&self) -> LightKind {
         match self {
             Self::Point { .. } => LightKind::Point,
@@ -213,8 +215,8 @@ impl LightShape {
         }
     }
 
-    /// The light's centre in homogeneous coordinates: a point with w = 1, or with w = 0 the direction **to** a
-    /// directional light.
+    /// The light's centre in homogeneous coordinates: a point with w = 1, or with w = 0 the
+    /// direction **to** a directional light.
     pub fn center(&self) -> DVec4 {
         match *self {
             Self::Directional { direction, .. } => (-direction).extend(0.0),
@@ -234,8 +236,8 @@ impl LightShape {
         c.truncate() - p * c.w
     }
 
-    /// Radius of the smallest known sphere around [`LightShape::center`] that contains the light; 0 for hard lights.
-    /// For a sun, the sine of half its angle: the radius at distance 1.
+    /// Radius of the smallest known sphere around [`LightShape::center`] that contains the light; 0
+    /// for hard lights. For a sun, the sine of half its angle: the radius at distance 1.
     pub fn radius(&self) -> f64 {
         match *self {
             Self::Point { .. } | Self::Spot { .. } => 0.0,

@@ -10,15 +10,15 @@ use crate::{
 };
 use glam::{DVec3, DVec4};
 
-/// The box around all that a light can light: its range, cut to the cone for a spot. `None` where that is without limit:
-/// for a directional light, and where there is no range.
+/// The box around all that a light can light: its range, cut to the cone for a spot. `None` where
+/// that is without limit: for a directional light, and where there is no range.
 pub fn reach(light: &Light) -> Option<Bounds> {
     let sector = Sector::of(light)?;
     sector.range.is_finite().then(|| sector.bounds())
 }
 
-/// False only where no point of the box is within the range and the cone of the light. The shadow of a caster there is
-/// where there is no light either.
+/// False only where no point of the box is within the range and the cone of the light. The shadow
+/// of a caster there is where there is no light either.
 pub fn may_be_reached(light: &Light, bounds: &Bounds) -> bool {
     let Some(sector) = Sector::of(light) else { return !bounds.is_empty() };
     let ball = Sphere { center: sector.apex, radius: sector.range };
@@ -45,7 +45,8 @@ pub fn may_light_view(light: &Light, camera: &CameraView) -> bool {
 struct Sector {
     apex: DVec3,
     direction: DVec3,
-    /// Sine and cosine of the angle between the axis and the side of the cone; 180 degrees for the whole sphere.
+    /// Sine and cosine of the angle between the axis and the side of the cone; 180 degrees for the
+    /// whole sphere.
     sin: f64,
     cos: f64,
     /// Infinite where there is no limit.
@@ -62,7 +63,8 @@ impl Sector {
             return None;
         }
         let apex = center.truncate();
-        // What lies between a point of the light and one within the range is in the sphere only if the light is.
+        // What lies between a point of the light and one within the range is in the sphere only if
+        // the light is.
         let range = light.range.map_or(f64::INFINITY, |r| r.max(light.shape.radius()));
         let limited = if range.is_finite() { range } else { 0.0 };
         let rounding = 1e-12 * (apex.abs().max_element() + limited);
@@ -91,8 +93,9 @@ impl Sector {
         Bounds { min: self.apex - min, max: self.apex + max }.grown(self.rounding)
     }
 
-    /// Whether a plane through the apex has the cone on one side and all of the points, given relative to the apex, on
-    /// the other. Planes across the axis and those that touch the cone towards a point, or the middle of all, are tried.
+    /// Whether a plane through the apex has the cone on one side and all of the points, given
+    /// relative to the apex, on the other. Planes across the axis and those that touch the cone
+    /// towards a point, or the middle of all, are tried.
     fn is_parted_from(&self, points: &[DVec4]) -> bool {
         // A cone of more than a half-space has no such plane.
         if self.cos < 0.0 {

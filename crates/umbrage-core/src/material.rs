@@ -15,7 +15,8 @@ pub struct Material {
     pub shininess: f32,
     /// Light given off, linear RGB.
     pub emissive: Vec3,
-    /// Alpha mask: the surface is absent, for the eye and for light, where alpha is below this. `None`: opaque.
+    /// Alpha mask: the surface is absent, for the eye and for light, where alpha is below this.
+    /// `None`: opaque.
     pub alpha_cutoff: Option<f32>,
 }
 
@@ -46,8 +47,9 @@ pub struct Texture {
 }
 
 impl Texture {
-    /// Alpha in 0…1 at texture coordinates `uv` (row 0 is v = 0), bilinear with repetition: the same filter as the
-    /// GPU's, so that a cut-out edge lies at the same place for a ray and for a rasteriser.
+    /// Alpha in 0…1 at texture coordinates `uv` (row 0 is v = 0), bilinear with repetition: the
+    /// same filter as the GPU's, so that a cut-out edge lies at the same place for a ray and for a
+    /// rasteriser.
     pub fn alpha(&self, uv: glam::Vec2) -> f32 {
         let (w, h) = (f64::from(self.width), f64::from(self.height));
         let (x, y) = (f64::from(uv.x) * w - 0.5, f64::from(uv.y) * h - 0.5);

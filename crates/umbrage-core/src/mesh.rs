@@ -31,9 +31,9 @@ impl Mesh {
         self.indices.as_chunks::<3>().0.iter().copied()
     }
 
-    /// [`Mesh::indices`] with the first vertex at exactly its place for each, unless joints may part them:
-    /// fewer vertices where only places count. A triangle whose corners are on a line, and stay there, is one vertex: projected,
-    /// rounding could open it to a sliver.
+    /// [`Mesh::indices`] with the first vertex at exactly its place for each, unless joints may
+    /// part them: fewer vertices where only places count. A triangle whose corners are on a line,
+    /// and stay there, is one vertex: projected, rounding could open it to a sliver.
     pub fn welded_indices(&self) -> Vec<u32> {
         let first = weld_mesh(self);
         let mut welded: Vec<u32> = self.indices.iter().map(|&i| first.get(i as usize).copied().unwrap_or(i)).collect();
@@ -58,7 +58,8 @@ impl Mesh {
         Bounds::of(self.indices.iter().map(|&i| self.positions[i as usize].as_dvec3()))
     }
 
-    /// The plane that all triangles lie in, as a unit normal with the offset in `w` (n · p + w = 0), if there is one.
+    /// The plane that all triangles lie in, as a unit normal with the offset in `w` (n · p + w =
+    /// 0), if there is one.
     pub fn plane(&self) -> Option<DVec4> {
         let corners = || self.indices.iter().map(|&i| self.positions[i as usize].as_dvec3());
         let normal = self.triangles().find_map(|t| {
@@ -70,8 +71,9 @@ impl Mesh {
         corners().all(|p| (normal.dot(p) + offset).abs() <= tolerance).then_some(normal.extend(offset))
     }
 
-    /// Gives every vertex a normal where the mesh has none (or a wrong number of them): the mean of its
-    /// triangles' normals weighted by the angle there, so that it does not depend on how faces were split.
+    /// Gives every vertex a normal where the mesh has none (or a wrong number of them): the mean of
+    /// its triangles' normals weighted by the angle there, so that it does not depend on how faces
+    /// were split.
     pub fn generate_normals_if_absent(&mut self) {
         if self.normals.len() == self.positions.len() && self.normals.iter().all(|n| n.is_finite()) {
             return;
@@ -88,8 +90,9 @@ impl Mesh {
         }
     }
 
-    /// The same triangles with normals made anew: smooth over edges that bend by less than `crease_deg` degrees,
-    /// sharp over the others, where vertices are split. Triangles that share a vertex index are neighbours.
+    /// The same triangles with normals made anew: smooth over edges that bend by less than
+    /// `crease_deg` degrees, sharp over the others, where vertices are split. Triangles that share
+    /// a vertex index are neighbours.
     pub fn with_creases(&self, crease_deg: f32) -> Mesh {
         let least_cos = crease_deg.to_radians().cos();
         let triangles: Vec<[u32; 3]> = self.triangles().collect();
@@ -124,7 +127,8 @@ impl Mesh {
         mesh
     }
 
-    /// The mesh moved by `transform`; a mirroring one turns the triangles round, so that fronts stay fronts.
+    /// The mesh moved by `transform`; a mirroring one turns the triangles round, so that fronts
+    /// stay fronts.
     pub fn transformed(&self, transform: &DAffine3) -> Mesh {
         let mut mesh = self.clone();
         let normal_matrix = transform.matrix3.inverse().transpose();

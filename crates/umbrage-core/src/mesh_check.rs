@@ -1,6 +1,7 @@
 //! What is wrong with a mesh: open and non-manifold edges, degenerate and duplicate triangles.
 //!
-//! Shadow volumes need closed casters, and leaks often start at cracks; `umbrage info` shows these numbers.
+//! Shadow volumes need closed casters, and leaks often start at cracks; `umbrage info` shows these
+//! numbers.
 
 use crate::mesh::Mesh;
 use crate::scene::Scene;
@@ -8,8 +9,9 @@ use crate::weld::weld;
 use glam::Vec3;
 use std::ops::{Add, Mul};
 
-/// Counts of what a mesh holds and what is wrong with it. Edges are those between **positions**: vertices at exactly
-/// the same place are one, however their normals and texture coordinates differ.
+/// Counts of what a mesh holds and what is wrong with it. Edges are those between **positions**:
+/// vertices at exactly the same place are one, however their normals and texture coordinates
+/// differ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MeshReport {
     /// Triangles in all.
@@ -24,8 +26,8 @@ pub struct MeshReport {
     pub non_manifold_edges: usize,
     /// Edges whose two triangles run along them in the same direction: one of them is inside out.
     pub inconsistent_edges: usize,
-    /// Triangles of no area. Where two corners coincide the edges are not counted; a triangle whose corners lie in
-    /// a line may close a seam, so its edges are.
+    /// Triangles of no area. Where two corners coincide the edges are not counted; a triangle whose
+    /// corners lie in a line may close a seam, so its edges are.
     pub degenerate_triangles: usize,
     /// Triangles between the same three positions as an earlier one, whichever way round.
     pub duplicate_triangles: usize,
@@ -36,7 +38,8 @@ pub struct MeshReport {
 }
 
 impl MeshReport {
-    /// True where there are triangles and they bound a solid: every edge has one triangle on either side, wound alike.
+    /// True where there are triangles and they bound a solid: every edge has one triangle on either
+    /// side, wound alike.
     pub fn is_closed(&self) -> bool {
         self.triangles > 0
             && self.open_edges + self.non_manifold_edges + self.inconsistent_edges == 0
@@ -101,8 +104,8 @@ pub fn check(mesh: &Mesh) -> MeshReport {
     }
 }
 
-/// Looks all meshes of a scene over, each counted as often as it is placed. Where instances touch or overlap is their
-/// own affair: no edge joins two of them.
+/// Looks all meshes of a scene over, each counted as often as it is placed. Where instances touch
+/// or overlap is their own affair: no edge joins two of them.
 pub fn check_scene(scene: &Scene) -> MeshReport {
     let mut placed = vec![0; scene.meshes.len()];
     for instance in &scene.instances {
@@ -136,8 +139,8 @@ fn count_duplicates(triangles: &[[u32; 3]]) -> usize {
     sorted.windows(2).filter(|pair| pair[0] == pair[1]).count()
 }
 
-/// The differences and products of single-precision numbers are next to exact in double precision, so this finds
-/// corners in a line and no thin triangle that is none.
+/// The differences and products of single-precision numbers are next to exact in double precision,
+/// so this finds corners in a line and no thin triangle that is none.
 fn has_no_area(corners: [Vec3; 3]) -> bool {
     let [a, b, c] = corners.map(|p| p.as_dvec3());
     (b - a).cross(c - a).length_squared() == 0.0
@@ -171,8 +174,8 @@ mod tests {
     #[test]
     fn a_crack_opens_the_edges_along_it() {
         let mut cube = primitive::cube();
-        // One corner of the first face moved by the last bit: that face's two edges there come apart from the
-        // others'. The diagonal is the face's own.
+        // One corner of the first face moved by the last bit: that face's two edges there come
+        // apart from the others'. The diagonal is the face's own.
         cube.positions[1].x = cube.positions[1].x.next_up();
         let report = check(&cube);
         assert_eq!((report.open_edges, report.positions), (4, 9), "{report:?}");

@@ -1,5 +1,5 @@
-//! The primitives of the scene file as unit meshes: sizes go into the instance's transform, so that a thousand
-//! boxes share one mesh.
+//! The primitives of the scene file as unit meshes: sizes go into the instance's transform, so that
+//! a thousand boxes share one mesh.
 
 use crate::mesh::Mesh;
 use glam::{DVec2, DVec3, Vec2, Vec3};
@@ -41,8 +41,8 @@ pub fn cube() -> Mesh {
     mesh
 }
 
-/// A sphere of radius 1 around Y with `columns` × `rows` cells, vertices exactly on it, the first column towards +X.
-/// `columns` is at least 3 and `rows` at least 2; smaller numbers are raised.
+/// A sphere of radius 1 around Y with `columns` × `rows` cells, vertices exactly on it, the first
+/// column towards +X. `columns` is at least 3 and `rows` at least 2; smaller numbers are raised.
 pub fn sphere(columns: u32, rows: u32) -> Mesh {
     let rows = rows.max(2);
     let profile = (0..=rows).map(|j| {
@@ -53,8 +53,8 @@ pub fn sphere(columns: u32, rows: u32) -> Mesh {
     revolve("sphere", columns, profile.collect())
 }
 
-/// A torus around Y with a ring of `major` and a tube of `minor` metres; `columns` around the ring, `rows` around the
-/// tube, the first column towards +X.
+/// A torus around Y with a ring of `major` and a tube of `minor` metres; `columns` around the ring,
+/// `rows` around the tube, the first column towards +X.
 pub fn torus(major: f64, minor: f64, columns: u32, rows: u32) -> Mesh {
     let rows = rows.max(3);
     let profile = (0..=rows).map(|j| {
@@ -65,12 +65,14 @@ pub fn torus(major: f64, minor: f64, columns: u32, rows: u32) -> Mesh {
     revolve("torus", columns, profile.collect())
 }
 
-/// A closed cylinder of radius 1 and height 1 around Y, centred, `columns` × `rows` cells on its side.
+/// A closed cylinder of radius 1 and height 1 around Y, centred, `columns` × `rows` cells on its
+/// side.
 pub fn cylinder(columns: u32, rows: u32) -> Mesh {
     frustum_of_cone("cylinder", 1.0, columns, rows)
 }
 
-/// A closed cone of base radius 1 and height 1 around Y, centred, apex up, `columns` × `rows` cells on its side.
+/// A closed cone of base radius 1 and height 1 around Y, centred, apex up, `columns` × `rows` cells
+/// on its side.
 pub fn cone(columns: u32, rows: u32) -> Mesh {
     frustum_of_cone("cone", 0.0, columns, rows)
 }
@@ -95,8 +97,9 @@ fn frustum_of_cone(name: &str, top: f64, columns: u32, rows: u32) -> Mesh {
     mesh
 }
 
-/// Turns a profile of (radius, height) points with their normals around Y. Going along the profile with the outside
-/// to the right gives triangles that face outwards; at radius 0 one triangle of a cell vanishes and is left out.
+/// Turns a profile of (radius, height) points with their normals around Y. Going along the profile
+/// with the outside to the right gives triangles that face outwards; at radius 0 one triangle of a
+/// cell vanishes and is left out.
 fn revolve(name: &str, columns: u32, profile: Vec<(DVec2, DVec2)>) -> Mesh {
     let columns = columns.max(3);
     let mut mesh = Mesh { name: name.into(), ..Mesh::default() };

@@ -35,7 +35,8 @@ pub struct Instance {
     pub mesh: usize,
     /// Index into [`Scene::materials`].
     pub material: usize,
-    /// Which `[[model]]` of the scene file it belongs to; a model file of several meshes makes several instances.
+    /// Which `[[model]]` of the scene file it belongs to; a model file of several meshes makes
+    /// several instances.
     pub model: usize,
     /// Places the mesh.
     pub world_from_mesh: DAffine3,
@@ -106,7 +107,8 @@ impl Scene {
         })
     }
 
-    /// Adds a material and returns its index. A material equal to one that is there is not added again.
+    /// Adds a material and returns its index. A material equal to one that is there is not added
+    /// again.
     pub fn add_material(&mut self, material: Material) -> usize {
         self.materials.iter().position(|m| *m == material).unwrap_or_else(|| {
             self.materials.push(material);

@@ -1,13 +1,15 @@
 //! A tree of the objects of a scene that lets them move without being rebuilt (PX 5.3).
 //!
-//! The thesis splits the scene in four, and an object across a split stays in the large node above it, however small
-//! it is. This tree is a *loose* octree (Ulrich, "Loose Octrees", Game Programming Gems, 2000): an object belongs to
-//! the cell that its centre is in, of the smallest size that is not below twice its own, and a node's box is its cell
-//! grown to twice the size. So an object on a split is stored as deep as any other, and one that moves to and fro across it
-//! stays where it is. Twice, since a query's time goes into reaching nodes, not into testing the boxes in one: with as
-//! many nodes as objects it takes twice as long.
+//! The thesis splits the scene in four, and an object across a split stays in the large node above
+//! it, however small it is. This tree is a *loose* octree (Ulrich, "Loose Octrees", Game
+//! Programming Gems, 2000): an object belongs to the cell that its centre is in, of the smallest
+//! size that is not below twice its own, and a node's box is its cell grown to twice the size. So
+//! an object on a split is stored as deep as any other, and one that moves to and fro across it
+//! stays where it is. Twice, since a query's time goes into reaching nodes, not into testing the
+//! boxes in one: with as many nodes as objects it takes twice as long.
 //!
-//! Each node also knows the box around what is in and below it, its *content*: queries and cuts go by that.
+//! Each node also knows the box around what is in and below it, its *content*: queries and cuts go
+//! by that.
 
 mod content;
 mod cut;
@@ -20,7 +22,8 @@ pub use crate::volume::{Side, Sphere, Volume};
 
 /// The objects of a scene by place. Objects are numbers that the caller chooses, dense from 0.
 ///
-/// Nodes are made when first needed and stay, so removing an object changes its own node and no other's structure.
+/// Nodes are made when first needed and stay, so removing an object changes its own node and no
+/// other's structure.
 #[derive(Clone, Debug)]
 pub struct SceneTree {
     /// The root first.
@@ -40,7 +43,8 @@ struct Node {
     center: DVec3,
     /// Half the edge of the cell.
     half: f64,
-    /// What the node's objects are within: the loose cell. Not so for the root, which holds what fits nowhere.
+    /// What the node's objects are within: the loose cell. Not so for the root, which holds what
+    /// fits nowhere.
     bounds: Bounds,
     /// Around the boxes of the objects in and below the node.
     content: Bounds,
@@ -74,19 +78,20 @@ struct Place {
 
 const ROOT: u32 = 0;
 
-/// 256 cells along an edge: in a scene of a kilometre, leaves of four metres. The thesis has leaves of five.
+/// 256 cells along an edge: in a scene of a kilometre, leaves of four metres. The thesis has leaves
+/// of five.
 const DEPTH_LIMIT: u32 = 8;
 
 /// A cell is at least so many times as large as what it holds.
 const ROOMY: f64 = 2.0;
 
-/// Boxes of nodes are larger by this share of their coordinates, so that rounding, in the middles of cells or in a
-/// volume's test, never parts an object from its node.
+/// Boxes of nodes are larger by this share of their coordinates, so that rounding, in the middles
+/// of cells or in a volume's test, never parts an object from its node.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl SceneTree {
-    /// A tree for objects in about this box; others are found too, but each is tested in every query. An empty box
-    /// stands for the metre around the origin.
+    /// A tree for objects in about this box; others are found too, but each is tested in every
+    /// query. An empty box stands for the metre around the origin.
     pub fn new(bounds: Bounds) -> Self {
         let (center, half) = middle_and_half(&bounds);
         let usable = can_be_found(&bounds) && center.is_finite() && half > 0.0 && half.is_finite();
@@ -96,8 +101,8 @@ impl SceneTree {
         Self { nodes, entries: Vec::new(), len: 0, order: Vec::new(), changes: 0 }
     }
 
-    /// Adds `object`, or moves it where it is known. One with an empty box, or one that is not finite, is kept but no
-    /// query finds it.
+    /// Adds `object`, or moves it where it is known. One with an empty box, or one that is not
+    /// finite, is kept but no query finds it.
     pub fn insert(&mut self, object: u32, bounds: Bounds) {
         self.remove(object);
         let index = object as usize;
@@ -134,8 +139,8 @@ impl SceneTree {
         self.note_change(place.node);
     }
 
-    /// Moves `object`: no more than storing its box where it still fits its node and would fit no smaller one. An unknown
-    /// number is added.
+    /// Moves `object`: no more than storing its box where it still fits its node and would fit no
+    /// smaller one. An unknown number is added.
     pub fn update(&mut self, object: u32, bounds: Bounds) {
         let entry = self.entries.get(object as usize).copied().flatten();
         match entry {
@@ -166,7 +171,8 @@ impl SceneTree {
         self.len == 0
     }
 
-    /// Appends the objects whose boxes `volume` may touch, in an order that depends on nothing but the calls before.
+    /// Appends the objects whose boxes `volume` may touch, in an order that depends on nothing but
+    /// the calls before.
     pub fn query(&self, volume: &impl Volume, found: &mut Vec<u32>) {
         // The root holds what is outside its own box too: it is never skipped nor taken whole.
         self.gather_touched(&self.nodes[ROOT as usize], volume, !0, found);

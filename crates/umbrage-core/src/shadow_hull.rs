@@ -13,16 +13,18 @@ pub use crate::{
     light_reach::{may_be_reached, may_light_view, reach},
 };
 
-/// Around all casters that can shadow what the camera sees of receivers: the convex hull of the light's centre
-/// ([`crate::LightShape::center`]) and of the view between the nearest and the farthest point of `receivers`, a box
-/// around all of them. The shadow of a caster outside misses the view (PX 5.4, GG 9.5.3).
+/// Around all casters that can shadow what the camera sees of receivers: the convex hull of the
+/// light's centre ([`crate::LightShape::center`]) and of the view between the nearest and the
+/// farthest point of `receivers`, a box around all of them. The shadow of a caster outside misses
+/// the view (PX 5.4, GG 9.5.3).
 ///
 /// `None` where the camera sees no receiver, so that no caster matters.
 pub fn shadow_hull(camera: &CameraView, receivers: &Bounds, light_center: DVec4) -> Option<Convex> {
     soft_shadow_hull(camera, receivers, &[light_center])
 }
 
-/// The same for a light that is spread out: `light` are points (w = 1) or directions (w = 0) whose hull holds it.
+/// The same for a light that is spread out: `light` are points (w = 1) or directions (w = 0) whose
+/// hull holds it.
 pub fn soft_shadow_hull(camera: &CameraView, receivers: &Bounds, light: &[DVec4]) -> Option<Convex> {
     let view = ViewBody::of(camera);
     let receivers = view.relative_box(receivers);
@@ -43,12 +45,14 @@ pub fn soft_shadow_hull(camera: &CameraView, receivers: &Bounds, light: &[DVec4]
     Some(Convex::hull_about(camera.eye, &points))
 }
 
-/// The side of `seen`, a box that holds all rays from the eye to what they end at, where the shadow of the box `bounds` leaves it
-/// soonest, as n · p = w: what lies beyond counts for nothing. Zero where the shadow leaves the box through several sides.
+/// The side of `seen`, a box that holds all rays from the eye to what they end at, where the shadow
+/// of the box `bounds` leaves it soonest, as n · p = w: what lies beyond counts for nothing. Zero
+/// where the shadow leaves the box through several sides.
 pub fn shadow_end(seen: &Bounds, bounds: &Bounds, light_center: DVec4) -> DVec4 {
     let light = light_center.truncate();
     let middle = bounds.center() * light_center.w - light;
-    // How far each face of the caster's box is from the light, and how many times as far the shadow's middle leaves.
+    // How far each face of the caster's box is from the light, and how many times as far the
+    // shadow's middle leaves.
     let (low, high) = (bounds.min * light_center.w - light, bounds.max * light_center.w - light);
     let (to_low, to_high) = (seen.min - bounds.center(), seen.max - bounds.center());
     // Not so steep that rounding moves where a ray meets the side.
@@ -69,8 +73,8 @@ pub fn shadow_end(seen: &Bounds, bounds: &Bounds, light_center: DVec4) -> DVec4 
     best.1
 }
 
-/// The occlusion pyramid (GG 9.5.4): the hull of the light's centre, the eye and the near rectangle. A caster outside
-/// shadows no point of either.
+/// The occlusion pyramid (GG 9.5.4): the hull of the light's centre, the eye and the near
+/// rectangle. A caster outside shadows no point of either.
 pub fn occlusion_pyramid(camera: &CameraView, light_center: DVec4) -> Convex {
     let view = ViewBody::of(camera);
     let near = view.at(view.near);
@@ -82,8 +86,8 @@ pub fn occlusion_pyramid(camera: &CameraView, light_center: DVec4) -> Convex {
     Convex::hull_about(camera.eye, &points)
 }
 
-/// True where the segment from the eye to the light, a ray for a directional one, touches the box grown by `margin`
-/// metres.
+/// True where the segment from the eye to the light, a ray for a directional one, touches the box
+/// grown by `margin` metres.
 pub fn segment_touches(eye: DVec3, light_center: DVec4, bounds: &Bounds, margin: f64) -> bool {
     let direction = light_center.truncate() - eye * light_center.w;
     let (mut enter, mut leave) = (0.0_f64, if light_center.w == 0.0 { f64::INFINITY } else { 1.0 });
@@ -102,8 +106,8 @@ pub fn segment_touches(eye: DVec3, light_center: DVec4, bounds: &Bounds, margin:
     !bounds.is_empty() && enter <= leave
 }
 
-/// False only where the box, sent to infinity away from the light, is surely outside the view: then so is the dark
-/// cap of a caster in it (GG 9.5.3). True where the light is inside the box.
+/// False only where the box, sent to infinity away from the light, is surely outside the view: then
+/// so is the dark cap of a caster in it (GG 9.5.3). True where the light is inside the box.
 pub fn dark_cap_may_be_seen(camera: &CameraView, bounds: &Bounds, light_center: DVec4) -> bool {
     if bounds.is_empty() {
         return false;
@@ -118,8 +122,9 @@ pub fn dark_cap_may_be_seen(camera: &CameraView, bounds: &Bounds, light_center: 
     ![w + x, w - x, w + y, w - y, view.forward].into_iter().any(unseen)
 }
 
-/// The pixels x, y, width, height of a picture of `size` that the box may cover, rounded outwards and one more.
-/// `None` where the box is outside the view, the whole picture where the eye is in the box.
+/// The pixels x, y, width, height of a picture of `size` that the box may cover, rounded outwards
+/// and one more. `None` where the box is outside the view, the whole picture where the eye is in
+/// the box.
 pub fn screen_rect(camera: &CameraView, bounds: &Bounds, size: (u32, u32)) -> Option<[u32; 4]> {
     let view = ViewBody::of(camera);
     let relative = view.relative_box(bounds);
@@ -140,7 +145,8 @@ pub fn screen_rect(camera: &CameraView, bounds: &Bounds, size: (u32, u32)) -> Op
     extent.cmpgt(DVec2::ZERO).all().then(|| [first.x, first.y, extent.x, extent.y].map(|v| v as u32))
 }
 
-/// The corners of a box in clip space with at least this `w`, and the points at it on the edges that cross.
+/// The corners of a box in clip space with at least this `w`, and the points at it on the edges
+/// that cross.
 fn in_front(corners: &[DVec4; 8], w: f64) -> impl Iterator<Item = DVec4> {
     let kept = corners.iter().copied().filter(move |c| c.w >= w);
     let edges = (0..8).flat_map(|i| [1, 2, 4].map(|bit| (i, i | bit))).filter(|(i, j)| i != j);

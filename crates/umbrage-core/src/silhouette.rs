@@ -1,9 +1,10 @@
 //! Silhouettes: the edges that bound a mesh's shadow, and the triangles that cast it.
 //!
-//! Every triangle that casts is taken **turned to the light**, whichever way it is wound. The edges of all of them, those
-//! cancelled that two run along in opposite directions, are the **contour**. It is the boundary of a sum of triangles and
-//! so it is a cycle: as many of its edges enter a vertex as leave it, for any triangles and wherever a triangle is said
-//! to face. Drawn away from the light it makes the sides of a shadow volume that is closed without exception.
+//! Every triangle that casts is taken **turned to the light**, whichever way it is wound. The edges
+//! of all of them, those cancelled that two run along in opposite directions, are the **contour**.
+//! It is the boundary of a sum of triangles and so it is a cycle: as many of its edges enter a
+//! vertex as leave it, for any triangles and wherever a triangle is said to face. Drawn away from
+//! the light it makes the sides of a shadow volume that is closed without exception.
 
 use crate::adjacency::{Adjacency, Edge, NONE};
 use glam::{DAffine3, DVec3, DVec4, Vec4};
@@ -13,19 +14,21 @@ use glam::{DAffine3, DVec3, DVec4, Vec4};
 pub enum Rule {
     /// All of them. Right for any mesh, light and point.
     All,
-    /// Those that face away from the light. Right for a closed mesh where light and points are outside its bounds, and
-    /// half the number of sides.
+    /// Those that face away from the light. Right for a closed mesh where light and points are
+    /// outside its bounds, and half the number of sides.
     Away,
 }
 
-/// +1 where the light is in front of the plane or in it, −1 behind. `light` is homogeneous, in mesh space relative to
-/// [`Adjacency::center`], see [`light_in_mesh`]. A triangle without area, its plane zero, faces every light.
+/// +1 where the light is in front of the plane or in it, −1 behind. `light` is homogeneous, in mesh
+/// space relative to [`Adjacency::center`], see [`light_in_mesh`]. A triangle without area, its
+/// plane zero, faces every light.
 pub fn facing(plane: Vec4, light: Vec4) -> i32 {
     // In this order and precision, as shaders do it.
     if plane.x * light.x + plane.y * light.y + plane.z * light.z + plane.w * light.w >= 0.0 { 1 } else { -1 }
 }
 
-/// How often the edge is in the contour, −2…2: from `vertices[0]` to `vertices[1]` where positive, back where negative.
+/// How often the edge is in the contour, −2…2: from `vertices[0]` to `vertices[1]` where positive,
+/// back where negative.
 pub fn multiplicity(edge: &Edge, planes: &[Vec4], light: Vec4, rule: Rule) -> i32 {
     // A triangle that faces away and is turned to the light runs along its edges backwards.
     let along = |triangle: u32| match (facing(planes[triangle as usize], light), rule) {
@@ -40,10 +43,12 @@ pub fn multiplicity(edge: &Edge, planes: &[Vec4], light: Vec4, rule: Rule) -> i3
     }
 }
 
-/// An edge of the contour. It runs with the triangle that casts the shadow on its left, seen from the light.
+/// An edge of the contour. It runs with the triangle that casts the shadow on its left, seen from
+/// the light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ContourEdge {
-    /// Index into [`crate::Mesh::positions`] of its start, of all vertices at the same place the first.
+    /// Index into [`crate::Mesh::positions`] of its start, of all vertices at the same place the
+    /// first.
     pub from: u32,
     /// The same of its end.
     pub to: u32,
@@ -76,8 +81,8 @@ pub fn light_cap(adjacency: &Adjacency, light: Vec4, rule: Rule) -> impl Iterato
     })
 }
 
-/// Splits a contour into closed walks that together use every edge as often as its `times` says. A walk visits no vertex
-/// twice; it lists vertices in order and returns from the last to the first.
+/// Splits a contour into closed walks that together use every edge as often as its `times` says. A
+/// walk visits no vertex twice; it lists vertices in order and returns from the last to the first.
 pub fn loops(contour: &[ContourEdge]) -> Vec<Vec<u32>> {
     let mut ways = Ways::of(contour);
     let mut loops = Vec::new();
@@ -112,7 +117,8 @@ impl Ways {
         Self { on_path: vec![None; vertices.len()], vertices, exits }
     }
 
-    /// Follows edges from `start` until none leaves it any more. Wherever the path meets itself, a loop is cut off.
+    /// Follows edges from `start` until none leaves it any more. Wherever the path meets itself, a
+    /// loop is cut off.
     fn walk(&mut self, start: usize, loops: &mut Vec<Vec<u32>>) {
         let mut path = vec![start];
         self.on_path[start] = Some(0);
@@ -130,8 +136,8 @@ impl Ways {
     }
 }
 
-/// A light as [`facing`] takes it. `light` is homogeneous in world space: a point with w = 1, or with w = 0 the direction
-/// to the light.
+/// A light as [`facing`] takes it. `light` is homogeneous in world space: a point with w = 1, or
+/// with w = 0 the direction to the light.
 pub fn light_in_mesh(light: DVec4, mesh_from_world: &DAffine3, mesh_center: DVec3) -> Vec4 {
     let place = light.truncate();
     if light.w == 0.0 {
@@ -186,7 +192,8 @@ mod tests {
         }
     }
 
-    /// How many edges the contour has, how often each counts (0 where that differs), and how many loops it makes.
+    /// How many edges the contour has, how often each counts (0 where that differs), and how many
+    /// loops it makes.
     fn shape(adjacency: &Adjacency, light: Vec4, rule: Rule) -> (usize, u32, usize) {
         let contour = checked(adjacency, light, rule);
         let times = contour.first().map_or(0, |e| e.times);
@@ -270,7 +277,8 @@ mod tests {
         // At 0, 120 and 240 degrees around Z.
         let positions = [Vec3::ZERO, Vec3::Z, Vec3::X, Vec3::new(-0.5, 0.866, 0.0), Vec3::new(-0.5, -0.866, 0.0)];
         let fins = Adjacency::of(&mesh(&positions, &[[0, 1, 2], [0, 1, 3], [0, 1, 4]]));
-        // A fin up to 180 degrees clockwise of the light runs along the edge from 0 to 1, any other back.
+        // A fin up to 180 degrees clockwise of the light runs along the edge from 0 to 1, any other
+        // back.
         for (light, want) in [(Vec4::Y, -1), (Vec4::new(1.0, 1.0, 0.0, 0.0), 1), (Vec4::NEG_Y, 1)] {
             let contour = checked(&fins, light, Rule::All);
             let middle = contour.iter().filter(|e| e.from < 2 && e.to < 2);

@@ -1,4 +1,5 @@
-//! Meshes that every ray from outside enters through a front face, so that their back faces hide nothing that the front faces don't.
+//! Meshes that every ray from outside enters through a front face, so that their back faces hide
+//! nothing that the front faces don't.
 
 use crate::{mesh::Mesh, weld::weld};
 use std::collections::HashSet;
@@ -9,8 +10,8 @@ const MOST: usize = 256;
 /// How far a vertex may be above a triangle's plane, over the size of the mesh.
 const ROUNDING: f64 = 1e-6;
 
-/// True where the triangles are all of the surface of a convex body, counter-clockwise seen from outside. Larger meshes than of
-/// 256 triangles are not looked at.
+/// True where the triangles are all of the surface of a convex body, counter-clockwise seen from
+/// outside. Larger meshes than of 256 triangles are not looked at.
 pub fn is_convex_solid(mesh: &Mesh) -> bool {
     (4..=MOST).contains(&mesh.triangle_count()) && is_closed(mesh) && is_convex(mesh)
 }

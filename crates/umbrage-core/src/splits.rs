@@ -1,17 +1,19 @@
 //! Where the view of a camera is split by distance, so that each part gets a map of its own.
 //!
-//! Sources: Zhang, Sun, Xu and Lun, "Parallel-Split Shadow Maps for Large-Scale Virtual Environments", 2006; FE 3.1.
+//! Sources: Zhang, Sun, Xu and Lun, "Parallel-Split Shadow Maps for Large-Scale Virtual
+//! Environments", 2006; FE 3.1.
 
 /// Most parts that a view is split into.
 pub const MOST_SPLITS: usize = 9;
 
-/// The borders of `count` parts of what lies between the distances `near` and `far`: `count + 1` of them, ascending, the
-/// first `near`, the last `far`.
+/// The borders of `count` parts of what lies between the distances `near` and `far`: `count + 1` of
+/// them, ascending, the first `near`, the last `far`.
 ///
-/// `lambda` is between uniform (0) and logarithmic (1) borders, the practical scheme: C_i = λ n (f / n)^(i / m) +
-/// (1 − λ) (n + (f − n) i / m). (FE 3.1 has a sum in place of the first product; with that the last part would not end at
-/// `far`.) Distances of 0 or less have no logarithm: borders are uniform there. `count` is clamped to
-/// 1 … [`MOST_SPLITS`], `lambda` to 0 … 1; `far` before `near` counts as `near`.
+/// `lambda` is between uniform (0) and logarithmic (1) borders, the practical scheme: C_i = λ n (f
+/// / n)^(i / m) + (1 − λ) (n + (f − n) i / m). (FE 3.1 has a sum in place of the first product;
+/// with that the last part would not end at `far`.) Distances of 0 or less have no logarithm:
+/// borders are uniform there. `count` is clamped to 1 … [`MOST_SPLITS`], `lambda` to 0 … 1; `far`
+/// before `near` counts as `near`.
 ///
 /// ```
 /// # use umbrage_core::splits::split_distances;

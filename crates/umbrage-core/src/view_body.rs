@@ -1,4 +1,5 @@
-//! What a camera sees, relative to its eye, so that a scene far from the origin loses nothing to rounding.
+//! What a camera sees, relative to its eye, so that a scene far from the origin loses nothing to
+//! rounding.
 
 use crate::{bounds::Bounds, camera::CameraView};
 use glam::{DAffine3, DMat4, DVec3, DVec4};
@@ -10,7 +11,8 @@ pub(crate) struct ViewBody {
     edges: [[DVec4; 2]; 4],
     /// The way the camera looks, unit length.
     pub forward: DVec3,
-    /// Distance along the view of the nearest and farthest point seen; infinite where there is no far plane.
+    /// Distance along the view of the nearest and farthest point seen; infinite where there is no
+    /// far plane.
     pub near: f64,
     pub far: f64,
     /// The smallest `w` in clip space of what is seen.
@@ -18,8 +20,8 @@ pub(crate) struct ViewBody {
     eye: DVec3,
 }
 
-/// A far plane beyond this many times the distance of the near plane is taken to be at infinity: the inverse of the
-/// projection no longer tells them apart.
+/// A far plane beyond this many times the distance of the near plane is taken to be at infinity:
+/// the inverse of the projection no longer tells them apart.
 const FARTHEST: f64 = 1e9;
 
 impl ViewBody {
@@ -49,14 +51,16 @@ impl ViewBody {
     /// The four corners of what is seen at a distance along the view, relative to the eye.
     pub fn at(&self, depth: f64) -> [DVec3; 4] {
         self.edges.map(|[a, b]| {
-            // The point of the line through both, either of which may be at infinity, that is in the plane.
+            // The point of the line through both, either of which may be at infinity, that is in
+            // the plane.
             let beyond = |p: DVec4| self.forward.dot(p.truncate()) - depth * p.w;
             let point = a * beyond(b) - b * beyond(a);
             point.truncate() / point.w
         })
     }
 
-    /// The corners, relative to the eye: four near ones, and four far ones or the directions to them.
+    /// The corners, relative to the eye: four near ones, and four far ones or the directions to
+    /// them.
     pub fn corners(&self) -> [DVec4; 8] {
         let near = self.at(self.near);
         let far = if self.far.is_finite() {
@@ -85,7 +89,8 @@ impl ViewBody {
         [depths.into_iter().fold(f64::INFINITY, f64::min), depths.into_iter().fold(f64::NEG_INFINITY, f64::max)]
     }
 
-    /// The corners of a relative box in clip space; `None` where they are all beyond one plane of the view.
+    /// The corners of a relative box in clip space; `None` where they are all beyond one plane of
+    /// the view.
     pub fn clip_corners(&self, relative: &Bounds) -> Option<[DVec4; 8]> {
         let corners = relative.corners().map(|c| self.clip_from_relative * c.extend(1.0));
         let planes: [fn(&DVec4) -> f64; 6] =

@@ -16,18 +16,19 @@ pub enum Side {
 
 /// A volume that a [`crate::SceneTree`] can be asked about.
 pub trait Volume {
-    /// Where `bounds` is. `Outside` and `Inside` only where that is certain, and then the same, but for rounding, for
-    /// every box within `bounds`. An empty box is outside.
+    /// Where `bounds` is. `Outside` and `Inside` only where that is certain, and then the same, but
+    /// for rounding, for every box within `bounds`. An empty box is outside.
     fn side(&self, bounds: &Bounds) -> Side;
 
-    /// False where `bounds` is surely outside: less work than [`Volume::side`] where that is all one wants to know.
+    /// False where `bounds` is surely outside: less work than [`Volume::side`] where that is all
+    /// one wants to know.
     fn may_touch(&self, bounds: &Bounds) -> bool {
         self.side(bounds) != Side::Outside
     }
 
-    /// [`Volume::side`] of a box within others that were asked about. `cutting` has a bit for each plane, or what else bounds the volume,
-    /// that cuts those others and so may cut this one: all to begin with. Only those are looked at, and those that don't cut
-    /// this box are taken out.
+    /// [`Volume::side`] of a box within others that were asked about. `cutting` has a bit for each
+    /// plane, or what else bounds the volume, that cuts those others and so may cut this one: all
+    /// to begin with. Only those are looked at, and those that don't cut this box are taken out.
     fn side_within(&self, bounds: &Bounds, cutting: &mut u64) -> Side {
         _ = cutting;
         self.side(bounds)

@@ -1,18 +1,22 @@
-//! Penumbra wedges: a convex body around every point from which an edge is seen in front of a light.
+//! Penumbra wedges: a convex body around every point from which an edge is seen in front of a
+//! light.
 //!
-//! Those points are x + t (x − y), t ≥ 0, for x on the edge and y of the light. For a convex light they are exactly the sum of the
-//! edge and of the cone of all directions x − y, and so convex: a half space holds them if it holds both ends of the edge and all
-//! directions. Four half spaces bound a wedge. Two hold the edge's line and touch the light on either side (where the line runs
-//! through the light, they hold the nearer end alone); two stand across and close its ends. Nothing is moved to make
-//! faces planar, so edges in line with the light are no special case (PX 4.1.2 and SG "Practical wedge construction" move
-//! an end of the edge, which does not bound the penumbra then).
+//! Those points are x + t (x − y), t ≥ 0, for x on the edge and y of the light. For a convex light
+//! they are exactly the sum of the edge and of the cone of all directions x − y, and so convex: a
+//! half space holds them if it holds both ends of the edge and all directions. Four half spaces
+//! bound a wedge. Two hold the edge's line and touch the light on either side (where the line runs
+//! through the light, they hold the nearer end alone); two stand across and close its ends. Nothing
+//! is moved to make faces planar, so edges in line with the light are no special case (PX 4.1.2 and
+//! SG "Practical wedge construction" move an end of the edge, which does not bound the penumbra
+//! then).
 
 use glam::{DVec3, DVec4};
 
 /// A convex body around a light: all points within `radius` of what its corners span.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightHull {
-    /// Points, or for light from infinitely far away unit directions to it. A sphere has its centre four times.
+    /// Points, or for light from infinitely far away unit directions to it. A sphere has its centre
+    /// four times.
     pub corners: [DVec3; 4],
     /// Metres, or for directions the sine of the angle.
     pub radius: f64,
@@ -39,8 +43,8 @@ impl LightHull {
 }
 
 impl Wedge {
-    /// The wedge of the edge between `a` and `b`; `None` where no such body holds it: the edge runs through the light or next
-    /// to it, or has no length or place.
+    /// The wedge of the edge between `a` and `b`; `None` where no such body holds it: the edge runs
+    /// through the light or next to it, or has no length or place.
     pub fn new(a: DVec3, b: DVec3, light: &LightHull) -> Option<Self> {
         let ends = [a, b];
         let away = ends.map(|p| light.away(p));
@@ -66,8 +70,9 @@ impl Wedge {
         Some(Self { near: owner.map(|i| ends[i]), far, planes })
     }
 
-    /// A body around the wedges of several edges, which lie close together where that is worth anything: four half spaces hold
-    /// all ends and all directions away from the light. `None` for no edges, and where no such body holds them.
+    /// A body around the wedges of several edges, which lie close together where that is worth
+    /// anything: four half spaces hold all ends and all directions away from the light. `None` for
+    /// no edges, and where no such body holds them.
     pub fn around(edges: &[[DVec3; 2]], light: &LightHull) -> Option<Self> {
         let ends = edges.as_flattened();
         let middle = ends.iter().sum::<DVec3>() / ends.len() as f64;
@@ -95,8 +100,8 @@ impl Wedge {
     }
 }
 
-/// Directions of a body's edges: at either end in the front and in the back face. Seen from next to a wide light three half spaces may
-/// do, and edges of the body lie elsewhere: `None`.
+/// Directions of a body's edges: at either end in the front and in the back face. Seen from next to
+/// a wide light three half spaces may do, and edges of the body lie elsewhere: `None`.
 fn rays(normals: [DVec3; 4]) -> Option<[[DVec3; 2]; 2]> {
     let sum: DVec3 = normals.iter().sum();
     let ray = |end: usize, side: usize| {
@@ -114,7 +119,8 @@ fn meet([a, b, c]: [DVec4; 3]) -> DVec3 {
     (a.w * n.cross(o) + b.w * o.cross(m) + c.w * m.cross(n)) / m.dot(n.cross(o))
 }
 
-/// Of all n = cos φ `axis` + sin φ `other` with n · d ≥ `radius` for every d, the first and the last.
+/// Of all n = cos φ `axis` + sin φ `other` with n · d ≥ `radius` for every d, the first and the
+/// last.
 fn span(axis: DVec3, other: DVec3, ds: &[DVec3], radius: f64) -> Option<[DVec3; 2]> {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     for d in ds {

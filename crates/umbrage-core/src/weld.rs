@@ -6,7 +6,8 @@ use std::collections::HashMap;
 
 /// For every vertex the first one at exactly its place. Bits are compared, but −0 is 0.
 pub(crate) fn weld(positions: &[Vec3]) -> Vec<u32> {
-    // Place and number side by side in one integer: sorting is then fast, and the first of equals stands in front.
+    // Place and number side by side in one integer: sorting is then fast, and the first of equals
+    // stands in front.
     let key = |(p, i): (&Vec3, u32)| {
         // Adding 0 makes −0 and 0 equal.
         let [x, y, z] = (*p + 0.0).to_array().map(|c| u128::from(c.to_bits()));

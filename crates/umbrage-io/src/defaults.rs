@@ -5,14 +5,16 @@ use umbrage_core::{Camera, Light, LightShape, Scene};
 
 /// The scene is seen from its front, its right and above.
 const TO_CAMERA: DVec3 = DVec3::new(0.55, 0.45, 0.8);
-/// The light comes from above and from the left of the camera, so that shadows fall to the right, in sight.
+/// The light comes from above and from the left of the camera, so that shadows fall to the right,
+/// in sight.
 const TO_LIGHT: DVec3 = DVec3::new(-0.5, 1.0, 0.55);
 /// Linear RGB: what lies in shadow is still to be made out.
 const AMBIENT: Vec3 = Vec3::splat(0.06);
 /// Degrees.
 const FOV_Y: f64 = 40.0;
 
-/// Gives the scene a three-quarter view in which all of it is seen in any picture at least as wide as high.
+/// Gives the scene a three-quarter view in which all of it is seen in any picture at least as wide
+/// as high.
 pub(crate) fn add_camera(scene: &mut Scene, notes: &mut Vec<String>) {
     let bounds = scene.bounds();
     let radius = radius_of(scene);
@@ -27,7 +29,8 @@ pub(crate) fn add_camera(scene: &mut Scene, notes: &mut Vec<String>) {
     notes.push("no camera in the file: made a three-quarter view from the bounds".to_owned());
 }
 
-/// Adds a soft key light: a sphere outside the bounds whose penumbras are about a tenth as wide as their distance.
+/// Adds a soft key light: a sphere outside the bounds whose penumbras are about a tenth as wide as
+/// their distance.
 pub(crate) fn add_light(scene: &mut Scene, notes: &mut Vec<String>) {
     let distance = 3.0 * radius_of(scene);
     let (position, radius) = (scene.bounds().center() + TO_LIGHT.normalize() * distance, distance * 0.05);

@@ -58,7 +58,8 @@ impl Error {
         Self { remedy: Some(remedy.into()), ..self }
     }
 
-    /// The same error with the known name nearest to `name` as its remedy, or all of them where none is near.
+    /// The same error with the known name nearest to `name` as its remedy, or all of them where
+    /// none is near.
     pub fn did_you_mean<'a>(self, name: &str, known: impl IntoIterator<Item = &'a str>) -> Self {
         let known: Vec<&str> = known.into_iter().collect();
         match nearest(name, known.iter().copied()) {
@@ -75,7 +76,8 @@ fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a s
     known.map(|k| (score(k), k)).filter(|(s, _)| *s > 0.8).max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, k)| k)
 }
 
-/// The bytes of a file. Where it is missing, the error names the file beside it with the nearest name.
+/// The bytes of a file. Where it is missing, the error names the file beside it with the nearest
+/// name.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Error> {
     std::fs::read(path).map_err(|e| {
         let error = Error::new(path, format!("cannot be read: {e}"));

@@ -1,7 +1,7 @@
 //! Scene files, glTF and OBJ in; PNG, EXR and HDR pictures in and out.
 //!
-//! [`open`] reads whatever a user names: a scene file, or a model alone. Nothing here panics on bad input: every
-//! [`Error`] names the file, the place in it, what is wrong, and what helps.
+//! [`open`] reads whatever a user names: a scene file, or a model alone. Nothing here panics on bad
+//! input: every [`Error`] names the file, the place in it, what is wrong, and what helps.
 
 mod defaults;
 mod error;
@@ -58,7 +58,8 @@ pub fn open(path: &Path) -> Result<Opened, Error> {
     finish(path, scene, notes)
 }
 
-/// Reads the text of a scene file; paths in it are relative to `base_dir`, and errors call it `name`.
+/// Reads the text of a scene file; paths in it are relative to `base_dir`, and errors call it
+/// `name`.
 ///
 /// # Errors
 /// As [`open`].

@@ -15,7 +15,8 @@ pub(crate) struct Line<'a> {
     pub rest: &'a str,
 }
 
-/// Calls `each` with every line that is neither empty nor a comment. A line may continue after a `\` at its end.
+/// Calls `each` with every line that is neither empty nor a comment. A line may continue after a
+/// `\` at its end.
 pub(crate) fn for_each(
     file: &Path,
     text: &str,

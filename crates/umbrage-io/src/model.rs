@@ -106,7 +106,8 @@ impl Model {
         bases
     }
 
-    /// Makes an instance of every part of the model, which [`Model::add_to`] put into the scene at `bases`.
+    /// Makes an instance of every part of the model, which [`Model::add_to`] put into the scene at
+    /// `bases`.
     pub fn place(&self, scene: &mut Scene, bases: Bases, placement: &Placement) {
         let Placement { world_from_model, moment, .. } = *placement;
         let nodes = self.rig.nodes_at(moment);
@@ -142,8 +143,8 @@ impl Model {
     }
 }
 
-/// True where a vertex can be worked with: finite, and not so large that the differences and squares of `f32`
-/// arithmetic overflow.
+/// True where a vertex can be worked with: finite, and not so large that the differences and
+/// squares of `f32` arithmetic overflow.
 pub(crate) fn is_usable(position: Vec3) -> bool {
     position.is_finite() && position.abs().max_element() <= 1e15
 }

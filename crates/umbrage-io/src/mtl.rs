@@ -1,8 +1,9 @@
 //! MTL, the material libraries of OBJ files.
 //!
-//! Kd → base colour; luminance of Ks → specular; Ns → shininess; Ke → emissive; map_Kd → texture. map_d, or a map_Kd
-//! with transparent pixels, is an alpha mask at one half. A plain `d` or `Tr` below 1 is noted: shadows are those of
-//! the opaque surface. (Source: Wavefront, "MTL material format", version 4.2.)
+//! Kd → base colour; luminance of Ks → specular; Ns → shininess; Ke → emissive; map_Kd → texture.
+//! map_d, or a map_Kd with transparent pixels, is an alpha mask at one half. A plain `d` or `Tr`
+//! below 1 is noted: shadows are those of the opaque surface. (Source: Wavefront, "MTL material
+//! format", version 4.2.)
 
 use crate::error::{self, Error, Place};
 use crate::lines::{self, Line};
@@ -118,7 +119,8 @@ fn read_line(entry: &mut Entry, line: &Line<'_>, dir: &Path, notes: &mut Vec<Str
         "Kd" => entry.diffuse = Some(color()?),
         "Ks" => entry.specular = color()?.dot(Vec3::new(0.2126, 0.7152, 0.0722)),
         "Ke" => entry.emissive = color()?,
-        // Exponents of 0 are common for surfaces without a highlight; the lighting model wants them over 0.
+        // Exponents of 0 are common for surfaces without a highlight; the lighting model wants them
+        // over 0.
         "Ns" => entry.shininess = Some(line.numbers().map(|[n]| n.max(1.0))?),
         // `d -halo factor` depends on the angle of sight; its factor is not an opacity.
         "d" if !line.rest.starts_with('-') => entry.opacity = Some(share()?),

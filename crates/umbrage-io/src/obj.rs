@@ -1,11 +1,13 @@
 //! Wavefront OBJ.
 //!
-//! Polygons are split as a fan from their first corner, and every triangle is kept as it is, also degenerate and
-//! repeated ones. A mesh is made for every object and material. Faces without normals get smooth ones.
+//! Polygons are split as a fan from their first corner, and every triangle is kept as it is, also
+//! degenerate and repeated ones. A mesh is made for every object and material. Faces without
+//! normals get smooth ones.
 //!
-//! The reader is the project's own since `tobj` names no line in its errors, panics on an MTL colour of two numbers,
-//! takes an index of 0 for an absent one, and mixes up vertices of which only some have texture coordinates.
-//! (Source: Wavefront, "Advanced Visualizer manual", appendix B1.)
+//! The reader is the project's own since `tobj` names no line in its errors, panics on an MTL
+//! colour of two numbers, takes an index of 0 for an absent one, and mixes up vertices of which
+//! only some have texture coordinates. (Source: Wavefront, "Advanced Visualizer manual", appendix
+//! B1.)
 
 use crate::error::{self, Error, Place};
 use crate::lines::{self, Line};
@@ -88,7 +90,8 @@ impl Contents {
             "o" => self.current.object = line.rest.to_owned(),
             "usemtl" => self.current.material = Some(line.rest.to_owned()),
             "mtllib" => self.read_library(file, line)?,
-            // Names of groups, smoothing, and display attributes, none of which changes the surface.
+            // Names of groups, smoothing, and display attributes, none of which changes the
+            // surface.
             "g" | "s" | "mg" | "vp" | "bevel" | "c_interp" | "d_interp" | "lod" | "shadow_obj" | "trace_obj" => {}
             other => {
                 self.left_out.entry(other.to_owned()).or_insert(line.number);
@@ -125,7 +128,8 @@ impl Contents {
         Ok(())
     }
 
-    /// Reads a material library. A missing one is common, and noted; what is wrong inside one is an error.
+    /// Reads a material library. A missing one is common, and noted; what is wrong inside one is an
+    /// error.
     fn read_library(&mut self, file: &Path, line: &Line<'_>) -> Result<(), Error> {
         let dir = file.parent().unwrap_or(Path::new(""));
         let whole = dir.join(line.rest.replace('\\', "/"));
@@ -209,8 +213,8 @@ impl Contents {
         model
     }
 
-    /// A normal for every position, from all faces around it: also where texture coordinates, objects or materials
-    /// split the vertex. Empty where every corner has a normal of its own.
+    /// A normal for every position, from all faces around it: also where texture coordinates,
+    /// objects or materials split the vertex. Empty where every corner has a normal of its own.
     fn smooth_normals(&mut self) -> Vec<Vec3> {
         if self.corners.iter().all(|c| c[2] != NONE) {
             return Vec::new();

@@ -1,7 +1,8 @@
 //! Ground truth that other software has traced and stored in a folder.
 //!
-//! A scene NAME is `scenes/NAME.scene.toml`, `NAME.geometry.npz` (what the camera sees), and for its K-th light
-//! `NAME.lightK.visibility.png` (16-bit grey, linear) and `NAME.lightK.mask.png` (white: scored).
+//! A scene NAME is `scenes/NAME.scene.toml`, `NAME.geometry.npz` (what the camera sees), and for
+//! its K-th light `NAME.lightK.visibility.png` (16-bit grey, linear) and `NAME.lightK.mask.png`
+//! (white: scored).
 
 use crate::error::{self, Error, Place};
 use crate::pictures::{load_grey, load_mask};
@@ -24,7 +25,8 @@ pub struct StoredReference {
     pub mask: Image<bool>,
     /// Along the view direction, metres from the eye; 0 where nothing is seen.
     pub depth: Image<f32>,
-    /// Geometric normal of the triangle seen, turned to the camera; unit length, or zero where nothing is seen.
+    /// Geometric normal of the triangle seen, turned to the camera; unit length, or zero where
+    /// nothing is seen.
     pub normal: Image<[f32; 3]>,
     /// Index of the `[[model]]` seen; −1 where nothing is.
     pub model: Image<i16>,
@@ -32,8 +34,8 @@ pub struct StoredReference {
     pub camera: StoredCamera,
 }
 
-/// The camera of stored pictures. The point that pixel (i, j) of w × h shows is
-/// `eye + depth * (forward + x * right + y * up)` with `x = (2 (i + 0.5) / w − 1) * tan_half_fov_y * w / h` and
+/// The camera of stored pictures. The point that pixel (i, j) of w × h shows is `eye + depth *
+/// (forward + x * right + y * up)` with `x = (2 (i + 0.5) / w − 1) * tan_half_fov_y * w / h` and
 /// `y = (1 − 2 (j + 0.5) / h) * tan_half_fov_y`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StoredCamera {
@@ -53,7 +55,8 @@ impl StoredReference {
     /// Reads the pictures of the `light`-th light (from 0) of the scene called `scene`.
     ///
     /// # Errors
-    /// A scene or light that the folder does not hold; files that are damaged or do not fit each other.
+    /// A scene or light that the folder does not hold; files that are damaged or do not fit each
+    /// other.
     pub fn open(dir: &Path, scene: &str, light: usize) -> Result<Self, Error> {
         let stored = list(dir)?;
         let Some(lights) = stored.get(scene) else {

@@ -8,8 +8,9 @@ use umbrage_core::Scene;
 use umbrage_core::rig::{Moment, Weights};
 use umbrage_io::{Opened, open, open_str};
 
-/// A ribbon along Y on two bones of 1 m. `bend` turns the upper one by 90° about Z in 1 s; the second animation, which has no
-/// name, moves it 1 m along X after 2 s at once, and scales the node of a triangle that has no skin.
+/// A ribbon along Y on two bones of 1 m. `bend` turns the upper one by 90° about Z in 1 s; the
+/// second animation, which has no name, moves it 1 m along X after 2 s at once, and scales the node
+/// of a triangle that has no skin.
 fn arm() -> String {
     let mut bytes: Vec<u8> = Vec::new();
     let mut views = Vec::new();

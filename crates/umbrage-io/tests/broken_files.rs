@@ -42,7 +42,8 @@ f 1/1/1 2/1/1 3/2/1 4/2/1
 f -4//1 -3//1 -2//1
 ";
 
-/// A triangle with a skin, a picture in a buffer view, a sparse accessor, a camera and a spot light.
+/// A triangle with a skin, a picture in a buffer view, a sparse accessor, a camera and a spot
+/// light.
 fn gltf_json(buffer: &str, png_length: usize) -> String {
     let length = 232 + png_length;
     format!(
@@ -166,7 +167,8 @@ fn the_small_scenes_open() {
     let scene = open(&folder.path("a.obj")).unwrap().scene;
     assert_eq!(scene.materials[0].alpha_cutoff, Some(0.5), "a texture with transparent pixels is a mask");
     assert_eq!(scene.textures[0].rgba[3], [10, 20, 30, 250]);
-    // The joint moves by (1, 0, 0), its inverse bind matrix by (0, 0, 3); the node's own scale does not count.
+    // The joint moves by (1, 0, 0), its inverse bind matrix by (0, 0, 3); the node's own scale does
+    // not count.
     let scene = open(&folder.path("a.glb")).unwrap().scene;
     let want = [[1.0, 0.0, 3.0], [2.0, 0.0, 3.0], [1.0, 1.0, 3.0]].map(glam::Vec3::from);
     assert_eq!(scene.posed_mesh(&scene.instances[0]).positions, want);
@@ -348,7 +350,8 @@ fn corrupt(name: &str) {
     }
     for i in 0..whole.len() {
         let mut bytes = whole.clone();
-        // Another bit for every byte: digits, letters and punctuation become others of their kind or something else.
+        // Another bit for every byte: digits, letters and punctuation become others of their kind
+        // or something else.
         bytes[i] ^= [0x01, 0x10, 0x04, 0x80, 0x02][i % 5];
         f.write(&damaged, bytes);
         let _ = open(&f.path(&damaged));

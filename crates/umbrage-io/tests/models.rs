@@ -137,7 +137,8 @@ fn gltf_nodes_place_a_shared_mesh_by_their_hierarchy() {
     )
     .scene;
     assert_eq!((scene.meshes.len(), scene.instances.len()), (1, 2));
-    // X is scaled to 2, moved to (2, 0, 1), turned by 90° about Y to (1, 0, −2), moved to (11, 0, −2).
+    // X is scaled to 2, moved to (2, 0, 1), turned by 90° about Y to (1, 0, −2), moved to (11, 0,
+    // −2).
     let got = scene.instances[0].world_from_mesh.transform_point3(DVec3::X);
     assert!((got - DVec3::new(11.0, 0.0, -2.0)).length() < 1e-6, "{got}");
 }

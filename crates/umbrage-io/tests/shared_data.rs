@@ -1,11 +1,12 @@
-//! The scenes and models that come with the references, where they are present: `UMBRAGE_SHARED` names the folder, else
-//! it lies beside the workspace.
+//! The scenes and models that come with the references, where they are present: `UMBRAGE_SHARED`
+//! names the folder, else it lies beside the workspace.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use umbrage_io::stored::StoredReference;
 
-/// The folder. These tests are ignored by name where it may be missing; `cargo xtask test` runs them where it is there.
+/// The folder. These tests are ignored by name where it may be missing; `cargo xtask test` runs
+/// them where it is there.
 fn shared() -> PathBuf {
     let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared");
     let dir = std::env::var_os("UMBRAGE_SHARED").map_or_else(beside, PathBuf::from);

@@ -5,12 +5,14 @@ use umbrage_core::Image;
 /// A step is a second difference of 1 / depth over this share of 1 / depth.
 const STEP: f64 = 0.005;
 
-/// True where a pixel lies beside a discontinuity: there a rasteriser and a ray tracer may see different surfaces.
+/// True where a pixel lies beside a discontinuity: there a rasteriser and a ray tracer may see
+/// different surfaces.
 ///
-/// Two of eight neighbours are across one when one of them shows nothing, or they show different models, or the depth
-/// has a step: the second difference of 1 / depth, which is zero on any plane, is over 0.5 % of 1 / depth. Both pixels
-/// are then marked. `depth` is measured along the view direction, in any unit, 0 = nothing; `model` is any number that
-/// differs from one model to the next. Pixels outside `model` count as a model of their own.
+/// Two of eight neighbours are across one when one of them shows nothing, or they show different
+/// models, or the depth has a step: the second difference of 1 / depth, which is zero on any plane,
+/// is over 0.5 % of 1 / depth. Both pixels are then marked. `depth` is measured along the view
+/// direction, in any unit, 0 = nothing; `model` is any number that differs from one model to the
+/// next. Pixels outside `model` count as a model of their own.
 pub fn discontinuities(depth: &Image<f32>, model: &Image<i32>) -> Image<bool> {
     let (width, height) = (i64::from(depth.width), i64::from(depth.height));
     let inverse = depth.map(|&d| if d > 0.0 { 1.0 / f64::from(d) } else { 0.0 });

@@ -5,8 +5,8 @@ use crate::score::difference;
 use umbrage_core::glam::{DVec2, DVec3, Vec3};
 use umbrage_core::{Camera, Image};
 
-/// A point counts where it is this near to a pixel's centre in the second frame, pixels. So nothing is interpolated, and what the
-/// picture's own grid adds is an eighth of a pixel at most.
+/// A point counts where it is this near to a pixel's centre in the second frame, pixels. So nothing
+/// is interpolated, and what the picture's own grid adds is an eighth of a pixel at most.
 const NEAR_PIXELS: f64 = 0.125;
 
 /// Share of the distance that the surface of the second frame may be off that of the first.
@@ -45,8 +45,8 @@ impl Frame {
         self.depth.size()
     }
 
-    /// Distance along the view of what pixel (`x`, `y`) shows, metres; `None` where it shows nothing, beside discontinuities of
-    /// depth and outside of the picture.
+    /// Distance along the view of what pixel (`x`, `y`) shows, metres; `None` where it shows
+    /// nothing, beside discontinuities of depth and outside of the picture.
     pub fn depth(&self, (x, y): (u32, u32)) -> Option<f64> {
         let at = (i64::from(x), i64::from(y));
         let depth = *self.depth.get(at.0, at.1).filter(|depth| **depth > 0.0)?;
@@ -101,7 +101,8 @@ pub struct Flicker {
 }
 
 impl Flicker {
-    /// Adds the changes between two frames, each with the picture that it shows; what is not finite changes by 1.
+    /// Adds the changes between two frames, each with the picture that it shows; what is not finite
+    /// changes by 1.
     pub fn add(&mut self, points: &[FixedPoint], before: &Image<f32>, after: &Image<f32>) {
         let value =
             |picture: &Image<f32>, (x, y): (u32, u32)| picture.get(x.into(), y.into()).copied().unwrap_or(f32::NAN);
@@ -139,7 +140,8 @@ mod tests {
         Frame::new(camera, Image::filled(SIZE.0, SIZE.1, DISTANCE as f32), Image::filled(SIZE.0, SIZE.1, Vec3::Z))
     }
 
-    /// Stripes on the wall, `every` pixels wide, that have moved to the right by `pixels`, as a camera at `at` sees them.
+    /// Stripes on the wall, `every` pixels wide, that have moved to the right by `pixels`, as a
+    /// camera at `at` sees them.
     fn stripes(every: f64, at: f64, pixels: f64) -> Image<f32> {
         Image::from_fn(SIZE.0, SIZE.1, |x, _| {
             ((f64::from(x) + 0.5 + at - pixels) / every).rem_euclid(2.0).floor() as f32
@@ -159,7 +161,8 @@ mod tests {
 
     #[test]
     fn what_is_fixed_does_not_flicker_and_what_crawls_does_by_as_much() {
-        // Whole pixels: the points are exact. Of stripes 8 pixels wide that crawl by c pixels a share of c / 8 changes.
+        // Whole pixels: the points are exact. Of stripes 8 pixels wide that crawl by c pixels a
+        // share of c / 8 changes.
         assert_eq!(flicker(1.0, 0.0), (Some(0.0), 200 * 63 * 48));
         for crawl in [0.25, 0.75] {
             let found = flicker(1.0, crawl).0.expect("points");

@@ -3,10 +3,12 @@
 use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8};
 use umbrage_core::Image;
 
-/// Mean ꟻLIP over the scored pixels of two visibility pictures of one size, shown as light: linear grey in sRGB.
+/// Mean ꟻLIP over the scored pixels of two visibility pictures of one size, shown as light: linear
+/// grey in sRGB.
 ///
-/// Pixels that are not scored are made equal in both, so that they do not count either for their neighbours. A produced
-/// value that is not finite is shown as the opposite of the reference. 0 without any scored pixel.
+/// Pixels that are not scored are made equal in both, so that they do not count either for their
+/// neighbours. A produced value that is not finite is shown as the opposite of the reference. 0
+/// without any scored pixel.
 pub fn of_visibility(produced: &Image<f32>, reference: &Image<f32>, mask: &Image<bool>) -> f64 {
     let shown: Vec<f32> = (produced.data.iter().zip(&reference.data).zip(&mask.data))
         .map(|((&p, &r), &scored)| match (scored, p.is_finite()) {

@@ -8,8 +8,8 @@ use umbrage_core::{Camera, Image};
 /// Texels of a map that a shadow edge may be off by without counting as acne or a leak.
 const TEXELS: f32 = 2.0;
 
-/// For each pixel the size of a texel of the map there as seen on the screen, pixels; 0 where nothing is or no map covers
-/// the surface. `views` and `splits` are those of [`texel_on_screen`].
+/// For each pixel the size of a texel of the map there as seen on the screen, pixels; 0 where
+/// nothing is or no map covers the surface. `views` and `splits` are those of [`texel_on_screen`].
 ///
 /// `depth` is along the view direction, metres, 0 where nothing is; `normal` is geometric.
 pub fn texel_footprint(
@@ -33,8 +33,9 @@ pub fn texel_footprint(
     })
 }
 
-/// For each pixel the reach within which a technique with these maps is judged by its resolution, pixels: two texels as
-/// seen on the screen, see [`texel_footprint`]. To be given to [`interior`](crate::interior()), which raises it to 3.
+/// For each pixel the reach within which a technique with these maps is judged by its resolution,
+/// pixels: two texels as seen on the screen, see [`texel_footprint`]. To be given to
+/// [`interior`](crate::interior()), which raises it to 3.
 pub fn map_reach(
     views: &[LightView],
     splits: &[f64],
@@ -50,7 +51,8 @@ pub fn reach_of(footprint: &Image<f32>) -> Image<f32> {
     footprint.map(|texel| TEXELS * texel)
 }
 
-/// Sizes of texels on the screen, pixels: where they are large, shadow edges are jagged; under 1 they are wasted.
+/// Sizes of texels on the screen, pixels: where they are large, shadow edges are jagged; under 1
+/// they are wasted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aliasing {
     /// Half of the pixels have no larger one.
@@ -81,8 +83,8 @@ const COLORS: [(f64, [f64; 3]); 5] = [
     (16.0, [150.0, 10.0, 30.0]),
 ];
 
-/// A [`texel_footprint`] in sRGB: blue where texels are smaller than pixels, white at 2 pixels, red where they are large; almost
-/// black where there are none.
+/// A [`texel_footprint`] in sRGB: blue where texels are smaller than pixels, white at 2 pixels, red
+/// where they are large; almost black where there are none.
 pub fn footprint_colors(footprint: &Image<f32>) -> Image<[u8; 3]> {
     footprint.map(|&texel| if texel > 0.0 { color(texel.into()) } else { NONE })
 }

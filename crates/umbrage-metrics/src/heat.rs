@@ -9,9 +9,9 @@ const LEAK: [f64; 3] = [255.0, 40.0, 20.0];
 const FALSE_SHADOW: [f64; 3] = [30.0, 90.0, 255.0];
 const NOT_SCORED: [u8; 3] = [18, 18, 26];
 
-/// A signed error map in sRGB: red where light leaks in, blue where there is false shadow, at full strength from an
-/// error of 0.25; grey by the reference where the pixel is right, so that one sees where one is; almost black where it
-/// is not scored.
+/// A signed error map in sRGB: red where light leaks in, blue where there is false shadow, at full
+/// strength from an error of 0.25; grey by the reference where the pixel is right, so that one sees
+/// where one is; almost black where it is not scored.
 ///
 /// The picture has the size of the reference; pixels outside the others are not scored.
 pub fn heat(produced: &Image<f32>, reference: &Image<f32>, mask: &Image<bool>) -> Image<[u8; 3]> {

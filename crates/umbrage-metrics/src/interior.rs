@@ -8,12 +8,13 @@ pub const REACH_PIXELS: f32 = 3.0;
 /// Visibility that varies by no more than this counts as constant.
 const CONSTANT: f32 = 1e-3;
 
-/// True for scored pixels farther than a reach from any change of the reference among scored pixels: where the
-/// reference is constant over the whole square around them.
+/// True for scored pixels farther than a reach from any change of the reference among scored
+/// pixels: where the reference is constant over the whole square around them.
 ///
-/// `reach` gives each pixel a reach in pixels, rounded up; it is raised to [`REACH_PIXELS`], which `None` means
-/// everywhere. For techniques with a map it is two map texels as seen on the screen, so that a coarse map is not
-/// judged here for its resolution. Pixels outside a smaller `mask` are not scored.
+/// `reach` gives each pixel a reach in pixels, rounded up; it is raised to [`REACH_PIXELS`], which
+/// `None` means everywhere. For techniques with a map it is two map texels as seen on the screen,
+/// so that a coarse map is not judged here for its resolution. Pixels outside a smaller `mask` are
+/// not scored.
 pub fn interior(reference: &Image<f32>, mask: &Image<bool>, reach: Option<&Image<f32>>) -> Image<bool> {
     let largest = reference.width.max(reference.height);
     let radius = |x: u32, y: u32| {
@@ -23,7 +24,8 @@ pub fn interior(reference: &Image<f32>, mask: &Image<bool>, reach: Option<&Image
     let scored = |x: u32, y: u32| mask.get(x.into(), y.into()) == Some(&true);
     let (width, height) = reference.size();
     let mut inside = Image::filled(width, height, false);
-    // Ranges of the reference over squares of radius `known`, doubled until every pixel's own square was built of them.
+    // Ranges of the reference over squares of radius `known`, doubled until every pixel's own
+    // square was built of them.
     let mut known = 1;
     let mut ranges =
         Image::from_fn(width, height, |x, y| if scored(x, y) { Range::of(reference[(x, y)]) } else { Range::EMPTY });
@@ -69,8 +71,9 @@ impl Range {
     }
 }
 
-/// The union of ranges at all combinations of `steps` in x and y from (x, y), moved into the picture: squares around
-/// the moved centres stay within the whole square and still reach its part of the picture.
+/// The union of ranges at all combinations of `steps` in x and y from (x, y), moved into the
+/// picture: squares around the moved centres stay within the whole square and still reach its part
+/// of the picture.
 fn around(ranges: &Image<Range>, x: u32, y: u32, steps: &[i64]) -> Range {
     let column = |step: i64| (i64::from(x) + step).clamp(0, i64::from(ranges.width) - 1) as u32;
     let row = |step: i64| (i64::from(y) + step).clamp(0, i64::from(ranges.height) - 1) as u32;

@@ -20,8 +20,8 @@ pub struct RadianceComparison<'a> {
     pub mask: &'a Image<bool>,
 }
 
-/// Errors of luminance over the scored pixels, as shares of the reference's mean luminance: how bright the light is does not
-/// matter. With d = produced − reference:
+/// Errors of luminance over the scored pixels, as shares of the reference's mean luminance: how
+/// bright the light is does not matter. With d = produced − reference:
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RadianceScores {
     /// Mean of |d|. `None` where the reference is black.

@@ -16,9 +16,11 @@ pub struct Comparison<'a> {
     pub reference: &'a Image<f32>,
     /// True where a pixel counts.
     pub mask: &'a Image<bool>,
-    /// The perfect hard shadow, one ray to the light's centre, that [`Scores::vs_hard`] compares with.
+    /// The perfect hard shadow, one ray to the light's centre, that [`Scores::vs_hard`] compares
+    /// with.
     pub hard: Option<&'a Image<f32>>,
-    /// How far from a shadow edge a pixel must be to count for [`Scores::interior_pct`], see [`interior()`].
+    /// How far from a shadow edge a pixel must be to count for [`Scores::interior_pct`], see
+    /// [`interior()`].
     pub reach: Option<&'a Image<f32>>,
 }
 
@@ -31,23 +33,24 @@ pub struct Scores {
     pub rmse: f64,
     /// 99th percentile of |d|, interpolated linearly.
     pub p99: f64,
-    /// Structural similarity, 1 = the same: Wang et al., "Image quality assessment", 2004, with only the scored pixels
-    /// of every window.
+    /// Structural similarity, 1 = the same: Wang et al., "Image quality assessment", 2004, with
+    /// only the scored pixels of every window.
     pub ssim: f64,
-    /// Mean of ꟻLIP, the difference that somebody sees who flips between the two as sRGB pictures, 0…1:
-    /// Andersson et al., "ꟻLIP: A Difference Evaluator for Alternating Images", 2020, 67 pixels a degree.
+    /// Mean of ꟻLIP, the difference that somebody sees who flips between the two as sRGB pictures,
+    /// 0…1: Andersson et al., "ꟻLIP: A Difference Evaluator for Alternating Images", 2020, 67
+    /// pixels a degree.
     pub flip: f64,
     /// Percentage of pixels with |d| ≤ [`TOLERANCE`].
     pub correct_pct: f64,
-    /// Percentage correct among the pixels far from every shadow edge, where acne and peter-panning show and nothing
-    /// else; `None` where there is no such pixel.
+    /// Percentage correct among the pixels far from every shadow edge, where acne and peter-panning
+    /// show and nothing else; `None` where there is no such pixel.
     pub interior_pct: Option<f64>,
     /// Mean of d where it is over 0: light in the shadow.
     pub leak: f64,
     /// Mean of −d where d is under 0: shadow in the light.
     pub false_shadow: f64,
-    /// `mae` as a share of that of the perfect hard shadow: 1 = no better than hard, 0 = the truth. `None` where the
-    /// hard shadow is not given or is the truth itself.
+    /// `mae` as a share of that of the perfect hard shadow: 1 = no better than hard, 0 = the truth.
+    /// `None` where the hard shadow is not given or is the truth itself.
     pub vs_hard: Option<f64>,
     /// How many pixels were compared.
     pub scored_pixels: usize,
@@ -114,7 +117,8 @@ fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
     values
 }
 
-/// The value at `share` (0…1) of sorted values, interpolated linearly between its neighbours; 0 of nothing.
+/// The value at `share` (0…1) of sorted values, interpolated linearly between its neighbours; 0 of
+/// nothing.
 pub(crate) fn percentile(values: &[f64], share: f64) -> f64 {
     let place = values.len().saturating_sub(1) as f64 * share;
     let at = |i: f64| values.get(i as usize).copied().unwrap_or(0.0);

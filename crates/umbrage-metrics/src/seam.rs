@@ -12,8 +12,9 @@ const BAND: f64 = 0.05;
 /// Shadow edges shorter than this, in pixels, on either side say nothing.
 const SHORTEST: f64 = 16.0;
 
-/// The pixels around borders: those for which another view counts somewhat nearer or farther on the same ray. `views` and `splits` are those of
-/// [`view_at`]; without splits there are no borders. `depth` is along the view direction, metres, 0 where nothing is.
+/// The pixels around borders: those for which another view counts somewhat nearer or farther on the
+/// same ray. `views` and `splits` are those of [`view_at`]; without splits there are no borders.
+/// `depth` is along the view direction, metres, 0 where nothing is.
 pub fn around_borders(views: &[LightView], splits: &[f64], camera: &Camera, depth: &Image<f32>) -> Image<bool> {
     let (width, height) = depth.size();
     let view = camera.view(width, height);
@@ -26,14 +27,17 @@ pub fn around_borders(views: &[LightView], splits: &[f64], camera: &Camera, dept
     })
 }
 
-/// How many times as far off shadow edges are around borders as elsewhere; 1 where a border can't be told.
+/// How many times as far off shadow edges are around borders as elsewhere; 1 where a border can't
+/// be told.
 ///
-/// Pixels `around` them are those of [`around_borders`].
-/// On either side the sum of |produced − reference| over the scored pixels is divided by the length of the shadow edges there:
-/// the sum of the reference's change from pixel to pixel. That is how many pixels an edge is off, for hard edges and for
-/// penumbras, however many of them there are; what is wrong where no edge is counts with it.
+/// Pixels `around` them are those of [`around_borders`]. On either side the sum of |produced −
+/// reference| over the scored pixels is divided by the length of the shadow edges there: the sum of
+/// the reference's change from pixel to pixel. That is how many pixels an edge is off, for hard
+/// edges and for penumbras, however many of them there are; what is wrong where no edge is counts
+/// with it.
 ///
-/// `None` without borders, where a side has next to no edges, and where there is no error elsewhere.
+/// `None` without borders, where a side has next to no edges, and where there is no error
+/// elsewhere.
 ///
 /// # Errors
 /// Pictures of different sizes.
@@ -73,7 +77,8 @@ impl Side {
     }
 }
 
-/// How much the reference changes from this pixel to the next ones in x and y, as far as these are scored.
+/// How much the reference changes from this pixel to the next ones in x and y, as far as these are
+/// scored.
 fn change(reference: &Image<f32>, mask: &Image<bool>, x: u32, y: u32) -> f64 {
     let to = |dx: u32, dy: u32| {
         let next = (i64::from(x + dx), i64::from(y + dy));

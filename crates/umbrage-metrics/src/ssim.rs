@@ -9,9 +9,11 @@ const SIGMA: f64 = 1.5;
 /// The paper's K₁² and K₂² for values in 0…1.
 const STABILISERS: [f64; 2] = [0.01 * 0.01, 0.03 * 0.03];
 
-/// Mean structural similarity over the scored pixels (Wang et al. 2004, section III B); 1 = the same.
+/// Mean structural similarity over the scored pixels (Wang et al. 2004, section III B); 1 = the
+/// same.
 ///
-/// Pixels that are not scored have no weight in any window. A produced value that is not finite counts as being off by
+/// Pixels that are not scored have no weight in any window. A produced value that is not finite
+/// counts as being off by
 /// 1. The pictures are of one size; without any scored pixel the result is 1.
 pub fn ssim(produced: &Image<f32>, reference: &Image<f32>, mask: &Image<bool>) -> f64 {
     let moments = Image {

@@ -1,4 +1,5 @@
-//! Agreement with the script that comes with the reference pictures, over all numbers that both compute.
+//! Agreement with the script that comes with the reference pictures, over all numbers that both
+//! compute.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

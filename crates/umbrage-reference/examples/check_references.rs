@@ -1,8 +1,9 @@
-//! Holds the tracer against pictures that other software has traced:
-//! `cargo run --release --example check_references -p umbrage-reference -- [FOLDER] [SAMPLES] [--pixels]`.
+//! Holds the tracer against pictures that other software has traced: `cargo run --release --example
+//! check_references -p umbrage-reference -- [FOLDER] [SAMPLES] [--pixels]`.
 //!
-//! One line a light; `--pixels` lists the pixels that are off by more than 0.02. Ends with an error where a picture
-//! misses the goal: for soft lights mae ≤ 0.001 and 99.8 % correct at 1024 samples, for hard ones mae ≤ 0.0002.
+//! One line a light; `--pixels` lists the pixels that are off by more than 0.02. Ends with an error
+//! where a picture misses the goal: for soft lights mae ≤ 0.001 and 99.8 % correct at 1024 samples,
+//! for hard ones mae ≤ 0.0002.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -61,7 +62,8 @@ impl Checked {
         let mask = Image::from_fn(edge.width, edge.height, |x, y| stored.mask[(x, y)] && !edge[(x, y)]);
         let (produced, reference) = (&truth.visibility, &stored.visibility);
         let scores = score(&Comparison { produced, reference, mask: &mask, hard: None, reach: None })?;
-        // The band beside discontinuities, too, should be the same for a tracer; its pixels are listed with a mark.
+        // The band beside discontinuities, too, should be the same for a tracer; its pixels are
+        // listed with a mark.
         let (mut off, mut largest, mut off_in_band) = (Vec::new(), 0.0_f64, 0);
         for (x, y) in (0..edge.height).flat_map(|y| (0..edge.width).map(move |x| (x, y))) {
             let d = f64::from(produced[(x, y)]) - f64::from(reference[(x, y)]);

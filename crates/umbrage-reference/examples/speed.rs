@@ -1,4 +1,5 @@
-//! Shadow rays a second: `cargo run --release --example speed -p umbrage-reference -- SCENE [LIGHT [SAMPLES]]`.
+//! Shadow rays a second: `cargo run --release --example speed -p umbrage-reference -- SCENE [LIGHT
+//! [SAMPLES]]`.
 //!
 //! Without a scene it is the Stanford bunny of the reference pictures.
 

@@ -9,9 +9,9 @@ use obvhs::ray::{Ray as BoxRay, RayHit};
 use obvhs::{Boundable, BvhBuildParams};
 use std::time::Duration;
 
-/// Boxes are grown by this share of the largest coordinate. A ray's origin is at most about eight largest coordinates
-/// off, so that rounding it and the slab test move a box by less than 8 · 6 roundings of 2⁻²⁴ each: the box of a
-/// triangle that a ray hits is never missed.
+/// Boxes are grown by this share of the largest coordinate. A ray's origin is at most about eight
+/// largest coordinates off, so that rounding it and the slab test move a box by less than 8 · 6
+/// roundings of 2⁻²⁴ each: the box of a triangle that a ray hits is never missed.
 const PADDING: f64 = 1.0 / (1 << 18) as f64;
 
 /// Triangles and the hierarchy over them.
@@ -72,7 +72,8 @@ impl Bvh {
             && opacity.stops(triangle, &seen, ray.direction)
     }
 
-    /// The first triangle that stops the ray, and its t. Of triangles at the same place it is the first of the scene.
+    /// The first triangle that stops the ray, and its t. Of triangles at the same place it is the
+    /// first of the scene.
     pub fn first(&self, ray: &Ray, opacity: &impl Opacity) -> Option<(&Triangle, f64)> {
         let (box_ray, start) = self.box_ray(ray)?;
         let length = ray.direction.length();
@@ -123,15 +124,16 @@ impl Bvh {
         &self.triangles[index as usize]
     }
 
-    /// The ray for the boxes, and how far along it starts: where it comes near them. Its t is the length from there.
-    /// `None` where it surely misses them all or has no direction.
+    /// The ray for the boxes, and how far along it starts: where it comes near them. Its t is the
+    /// length from there. `None` where it surely misses them all or has no direction.
     fn box_ray(&self, ray: &Ray) -> Option<(BoxRay, f64)> {
         let length = ray.direction.length();
         let direction = ray.direction / length;
         if !(direction.is_finite() && ray.origin.is_finite()) {
             return None;
         }
-        // All triangles are within √3 largest coordinates around the origin; no ray enters earlier than at `start`.
+        // All triangles are within √3 largest coordinates around the origin; no ray enters earlier
+        // than at `start`.
         let reach = 1.8 * self.largest;
         let middle = -ray.origin.dot(direction);
         if (ray.origin + direction * middle).length_squared() > reach * reach {

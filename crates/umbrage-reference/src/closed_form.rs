@@ -1,25 +1,27 @@
 //! Visibilities that have a formula: what the tracer is tested against.
 //!
-//! A straight edge cuts from what a point sees everything on one side of the plane through the point and the edge. So
-//! does the point's own horizon. The functions here give the share of a light above such a plane.
+//! A straight edge cuts from what a point sees everything on one side of the plane through the
+//! point and the edge. So does the point's own horizon. The functions here give the share of a
+//! light above such a plane.
 
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// The share of a disc's area on one side of a straight line, where (q − centre) · normal > `distance` in units of the
-/// radius: the circular segment. 1 from −1 on down, 0 from 1 on up.
+/// The share of a disc's area on one side of a straight line, where (q − centre) · normal >
+/// `distance` in units of the radius: the circular segment. 1 from −1 on down, 0 from 1 on up.
 pub fn disc_beyond_line(distance: f64) -> f64 {
     let d = distance.clamp(-1.0, 1.0);
     (d.acos() - d * (1.0 - d * d).sqrt()) / PI
 }
 
-/// The share of a rectangle's area on one side of a straight line: the points q with q · `normal` > `distance` of the
-/// rectangle of side lengths `size` around the origin.
+/// The share of a rectangle's area on one side of a straight line: the points q with q · `normal` >
+/// `distance` of the rectangle of side lengths `size` around the origin.
 ///
-/// `normal` is of any length, with `distance` scaled alike; if it or the size is zero, all lies beyond a negative
-/// distance and nothing beyond others. A size of (s, 0) is a line.
+/// `normal` is of any length, with `distance` scaled alike; if it or the size is zero, all lies
+/// beyond a negative distance and nothing beyond others. A size of (s, 0) is a line.
 pub fn rect_beyond_line(size: DVec2, normal: DVec2, distance: f64) -> f64 {
-    // q · normal is the sum of two independent uniform variables with these half widths: a trapezoid distribution.
+    // q · normal is the sum of two independent uniform variables with these half widths: a
+    // trapezoid distribution.
     let half = (normal * size * 0.5).abs();
     let (wide, narrow) = (half.max_element(), half.min_element());
     // What lies beyond −d is the rest of what lies beyond d.
@@ -34,8 +36,8 @@ pub fn rect_beyond_line(size: DVec2, normal: DVec2, distance: f64) -> f64 {
     if distance < 0.0 { 1.0 - beyond } else { beyond }
 }
 
-/// The share of a disc light above the plane through `p` with the normal `up`. The disc lies around `center`,
-/// perpendicular to `facing`.
+/// The share of a disc light above the plane through `p` with the normal `up`. The disc lies around
+/// `center`, perpendicular to `facing`.
 pub fn disc_above_plane(p: DVec3, up: DVec3, center: DVec3, facing: DVec3, radius: f64) -> f64 {
     let facing = facing.normalize_or_zero();
     let slope = (up - facing * up.dot(facing)).length() * radius;
@@ -43,32 +45,35 @@ pub fn disc_above_plane(p: DVec3, up: DVec3, center: DVec3, facing: DVec3, radiu
     if slope > 0.0 { disc_beyond_line(-height / slope) } else { f64::from(height > 0.0) }
 }
 
-/// The share of a sphere light above the plane through `p` with the normal `up`: that of the disc that faces `p`.
+/// The share of a sphere light above the plane through `p` with the normal `up`: that of the disc
+/// that faces `p`.
 pub fn sphere_above_plane(p: DVec3, up: DVec3, center: DVec3, radius: f64) -> f64 {
     disc_above_plane(p, up, center, center - p, radius)
 }
 
-/// The share of a rectangular light above the plane through `p` with the normal `up`. The light lies around `center`
-/// with the given half axes; one of them zero makes it a line.
+/// The share of a rectangular light above the plane through `p` with the normal `up`. The light
+/// lies around `center` with the given half axes; one of them zero makes it a line.
 pub fn rect_above_plane(p: DVec3, up: DVec3, center: DVec3, half_axes: [DVec3; 2]) -> f64 {
     let normal = DVec2::new(up.dot(half_axes[0]), up.dot(half_axes[1]));
     rect_beyond_line(DVec2::splat(2.0), normal, -up.dot(center - p))
 }
 
-/// The normal, on the lit side, of the plane through `p` and a blocker's straight edge: the blocker is a half-plane
-/// that ends at the line through `edge` along `along` and extends from there towards `into`.
+/// The normal, on the lit side, of the plane through `p` and a blocker's straight edge: the blocker
+/// is a half-plane that ends at the line through `edge` along `along` and extends from there
+/// towards `into`.
 ///
-/// What is above that plane, and beyond the blocker as seen from `p`, is what `p` sees. Zero for a `p` on the edge's line.
+/// What is above that plane, and beyond the blocker as seen from `p`, is what `p` sees. Zero for a
+/// `p` on the edge's line.
 pub fn past_half_plane(p: DVec3, edge: DVec3, along: DVec3, into: DVec3) -> DVec3 {
     let normal = along.cross(edge - p).normalize_or_zero();
     if normal.dot(into) > 0.0 { -normal } else { normal }
 }
 
-/// The polygon in which a point light shadows the plane y = 0 behind a convex body: the hull of its corners'
-/// projections, counter-clockwise as points (x, z).
+/// The polygon in which a point light shadows the plane y = 0 behind a convex body: the hull of its
+/// corners' projections, counter-clockwise as points (x, z).
 ///
-/// `None` where a corner is not below the light or is under the plane, since the shadow is no polygon then, and where
-/// there are fewer than three different projections.
+/// `None` where a corner is not below the light or is under the plane, since the shadow is no
+/// polygon then, and where there are fewer than three different projections.
 pub fn shadow_on_ground(light: DVec3, corners: &[DVec3]) -> Option<Vec<DVec2>> {
     if !corners.iter().all(|c| c.y < light.y && c.y >= 0.0) {
         return None;

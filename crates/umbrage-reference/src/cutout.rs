@@ -45,7 +45,8 @@ impl Cutouts {
                     self.textures.push(texture.clone());
                     self.textures.len() - 1
                 });
-                // alpha · opacity ≥ cutoff; of a quite transparent material nothing is there, unless all is.
+                // alpha · opacity ≥ cutoff; of a quite transparent material nothing is there,
+                // unless all is.
                 match (opacity > 0.0, cutoff > 0.0) {
                     (_, false) => Holes::None,
                     (false, _) => Holes::All,

@@ -27,7 +27,8 @@ pub struct Surface {
     pub normal: DVec3,
     /// True where the surface itself casts shadows: it hides light samples below its tangent plane.
     pub casts: bool,
-    /// The tracer's number of the triangle, which never hides its own points; `None` where it is not known.
+    /// The tracer's number of the triangle, which never hides its own points; `None` where it is
+    /// not known.
     pub triangle: Option<u32>,
 }
 
@@ -40,14 +41,16 @@ struct Shown {
 }
 
 impl Geometry {
-    /// The surface that pixel (`x`, `y`) shows; `None` where it shows nothing, and outside the picture.
+    /// The surface that pixel (`x`, `y`) shows; `None` where it shows nothing, and outside the
+    /// picture.
     pub fn surface(&self, x: u32, y: u32) -> Option<&Surface> {
         self.surfaces.get(x.into(), y.into())?.as_ref()
     }
 }
 
 impl Tracer {
-    /// Looks through the centres of `width` × `height` pixels. Surfaces nearer than the near plane are not seen.
+    /// Looks through the centres of `width` × `height` pixels. Surfaces nearer than the near plane
+    /// are not seen.
     pub fn geometry(&self, camera: &Camera, width: u32, height: u32) -> Geometry {
         self.geometry_where(camera, &Image::filled(width, height, true))
     }

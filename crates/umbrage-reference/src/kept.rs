@@ -49,7 +49,8 @@ pub struct Traced {
 }
 
 impl SceneKey {
-    /// Of the scene's geometry, materials and camera. Its name, its ambient light and its lights make no difference.
+    /// Of the scene's geometry, materials and camera. Its name, its ambient light and its lights
+    /// make no difference.
     pub fn new(scene: &Scene) -> Self {
         let mut hash = Fnv::default();
         hash.add(&fingerprint().to_le_bytes());
@@ -113,8 +114,8 @@ impl Kept {
     }
 }
 
-/// What the tracer makes of a small scene under every kind of light that it samples: a tracer that traces otherwise finds nothing of
-/// what was kept.
+/// What the tracer makes of a small scene under every kind of light that it samples: a tracer that
+/// traces otherwise finds nothing of what was kept.
 fn fingerprint() -> u128 {
     static FOUND: OnceLock<u128> = OnceLock::new();
     *FOUND.get_or_init(|| {
@@ -193,7 +194,8 @@ fn decoded(bytes: &[u8], (width, height): (u32, u32)) -> Option<Traced> {
     Some(Traced { truth, seconds: f64::from_le_bytes(*seconds) })
 }
 
-/// The hash of Fowler, Noll and Vo with 128 bits (FNV-1a): the same on every machine and in every version.
+/// The hash of Fowler, Noll and Vo with 128 bits (FNV-1a): the same on every machine and in every
+/// version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Fnv(u128);
 

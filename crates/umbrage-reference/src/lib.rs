@@ -1,8 +1,9 @@
 //! Ray-traced ground truth: the visibility of every kind of light on the CPU.
 //!
-//! [`Tracer::new`] takes a scene, [`Tracer::geometry`] finds what a camera sees, and [`Tracer::visibility`] computes for
-//! each pixel the share of a light that its surface sees past the casting triangles. What visibility is, the scene
-//! format specifies; [`closed_form`] holds the formulas that the tracer is tested against.
+//! [`Tracer::new`] takes a scene, [`Tracer::geometry`] finds what a camera sees, and
+//! [`Tracer::visibility`] computes for each pixel the share of a light that its surface sees past
+//! the casting triangles. What visibility is, the scene format specifies; [`closed_form`] holds the
+//! formulas that the tracer is tested against.
 
 mod bvh;
 pub mod closed_form;

@@ -19,7 +19,8 @@ pub(crate) struct LightView<'a> {
     sampler: LightSampler,
     /// Points of the unit square; none for the one ray to the centre.
     samples: Vec<DVec2>,
-    /// Radius of a sphere around the centre that contains the light, or the sine of a sun's half angle.
+    /// Radius of a sphere around the centre that contains the light, or the sine of a sun's half
+    /// angle.
     radius: f64,
     gather: bool,
 }
@@ -143,7 +144,8 @@ impl<'a> Rays<'a> {
         q.truncate() - self.surface.position * q.w
     }
 
-    /// Where the ray to a light sample starts: clear of the surface, in its own direction, so that the shadow does not move.
+    /// Where the ray to a light sample starts: clear of the surface, in its own direction, so that
+    /// the shadow does not move.
     fn t_min(&self, direction: DVec3) -> f64 {
         CLEARANCE * self.tracer.scale / self.surface.normal.dot(direction).abs()
     }
@@ -153,7 +155,8 @@ impl<'a> Rays<'a> {
         self.surface.casts && self.surface.normal.dot(self.direction(q)) < 0.0
     }
 
-    /// Tests everything. `last` is a triangle to try first, since neighbouring samples are often blocked by the same.
+    /// Tests everything. `last` is a triangle to try first, since neighbouring samples are often
+    /// blocked by the same.
     fn is_blocked(&self, q: DVec4, last: &mut Option<usize>) -> bool {
         if self.is_below(q) {
             return true;
@@ -169,7 +172,8 @@ impl<'a> Rays<'a> {
         blocker.is_some()
     }
 
-    /// Tests the gathered triangles; the one that blocks moves to the front, since it often blocks the next sample too.
+    /// Tests the gathered triangles; the one that blocks moves to the front, since it often blocks
+    /// the next sample too.
     fn is_blocked_by(&self, q: DVec4, seen: &mut [(u32, SeenTriangle)]) -> bool {
         if self.is_below(q) {
             return true;

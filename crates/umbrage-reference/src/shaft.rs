@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-/// A volume that holds every ray from a point to a sphere, or to a cone of directions: a pyramid around their cone and,
-/// for a sphere, the plane behind it.
+/// A volume that holds every ray from a point to a sphere, or to a cone of directions: a pyramid
+/// around their cone and, for a sphere, the plane behind it.
 pub(crate) struct Shaft {
     apex: DVec3,
     /// Outward normals of planes through the apex.
@@ -17,15 +17,17 @@ pub(crate) struct Shaft {
 }
 
 impl Shaft {
-    /// The rays from `apex` to the sphere around `center`. `None` where the apex is in the sphere, or so near that the cone
-    /// is wider than 60 degrees to either side. `scale` is the largest coordinate that occurs.
+    /// The rays from `apex` to the sphere around `center`. `None` where the apex is in the sphere,
+    /// or so near that the cone is wider than 60 degrees to either side. `scale` is the largest
+    /// coordinate that occurs.
     pub fn to_ball(apex: DVec3, center: DVec3, radius: f64, scale: f64) -> Option<Self> {
         let distance = apex.distance(center);
         let shaft = Self::to_cone(apex, center - apex, radius / distance, scale)?;
         Some(Self { length: distance + radius, ..shaft })
     }
 
-    /// The rays from `apex` along directions whose angle to `axis` has at most the sine `sine`; as [`Shaft::to_ball`].
+    /// The rays from `apex` along directions whose angle to `axis` has at most the sine `sine`; as
+    /// [`Shaft::to_ball`].
     pub fn to_cone(apex: DVec3, axis: DVec3, sine: f64, scale: f64) -> Option<Self> {
         let axis = axis.normalize_or_zero();
         // Written so that NaN is refused too.

@@ -8,13 +8,15 @@ use umbrage_core::{Bounds, Instance, Scene};
 
 /// Rays end and start this share of the largest coordinate away from light and surface.
 ///
-/// All arithmetic on hits is in double precision and a ray never meets the triangle that it starts on, so this only
-/// has to step over a second triangle at the very same place; it shifts no shadow that anybody can see.
+/// All arithmetic on hits is in double precision and a ray never meets the triangle that it starts
+/// on, so this only has to step over a second triangle at the very same place; it shifts no shadow
+/// that anybody can see.
 pub(crate) const CLEARANCE: f64 = 1e-9;
 
 /// Traces rays through a scene; keeps its own copy of what it needs.
 pub struct Tracer {
-    /// What all positions inside are relative to, so that a scene far from the origin is as exact as one at it.
+    /// What all positions inside are relative to, so that a scene far from the origin is as exact
+    /// as one at it.
     pub(crate) center: DVec3,
     /// Largest coordinate relative to the centre, metres.
     pub(crate) scale: f64,
@@ -36,7 +38,8 @@ pub(crate) struct InstanceFlags {
 }
 
 impl Tracer {
-    /// Prepares a scene as its animations stand. Triangles without area, with corners that are not finite or indices out of range are left out.
+    /// Prepares a scene as its animations stand. Triangles without area, with corners that are not
+    /// finite or indices out of range are left out.
     pub fn new(scene: &Scene) -> Self {
         let bounds = scene_bounds(scene);
         let mut tracer = Self {
@@ -94,9 +97,9 @@ impl Tracer {
         self.instance_of.len()
     }
 
-    /// True where a casting triangle blocks the straight way from the world point `from` to `to`: a point with w = 1, or
-    /// with w = 0 a direction to go without end. Triangles within 10⁻⁹ of the scene's size of either end do not block;
-    /// a point that is not finite is never blocked.
+    /// True where a casting triangle blocks the straight way from the world point `from` to `to`: a
+    /// point with w = 1, or with w = 0 a direction to go without end. Triangles within 10⁻⁹ of the
+    /// scene's size of either end do not block; a point that is not finite is never blocked.
     pub fn blocked(&self, from: DVec3, to: DVec4) -> bool {
         let direction = to.truncate() - from * to.w;
         let clear = CLEARANCE * self.scale / direction.length();
@@ -110,8 +113,8 @@ impl Tracer {
         self.casters.as_ref().unwrap_or(&self.all)
     }
 
-    /// The first triangle along the way `origin + t · direction`, t over `t_min`, with its t. `origin` is relative to
-    /// the centre.
+    /// The first triangle along the way `origin + t · direction`, t over `t_min`, with its t.
+    /// `origin` is relative to the centre.
     pub(crate) fn first(&self, origin: DVec3, direction: DVec3, t_min: f64) -> Option<(&Triangle, f64)> {
         self.all.first(&Ray { origin, direction, t_min, t_max: f64::INFINITY }, &self.cutouts)
     }

@@ -31,8 +31,8 @@ impl Triangle {
     /// [`Triangle::cutout`] of a triangle without holes.
     pub const OPAQUE: u32 = u32::MAX;
 
-    /// `None` for triangles without area and for corners that are not finite or farther off than single-precision
-    /// boxes can hold.
+    /// `None` for triangles without area and for corners that are not finite or farther off than
+    /// single-precision boxes can hold.
     pub fn new(corners: [DVec3; 3], id: u32, cutout: u32) -> Option<Self> {
         /// Metres. Areas of boxes this large are still finite in single precision.
         const FARTHEST: f64 = 1e18;
@@ -62,9 +62,9 @@ impl Triangle {
 
 /// A triangle as seen from the origin of rays.
 ///
-/// The planes through the origin and an edge are computed from the edge's ends alone, in either order to the last
-/// bit apart from the sign, so that no ray slips through between triangles that share an edge (compare Woop, Benthin,
-/// Wald, "Watertight Ray/Triangle Intersection", 2013).
+/// The planes through the origin and an edge are computed from the edge's ends alone, in either
+/// order to the last bit apart from the sign, so that no ray slips through between triangles that
+/// share an edge (compare Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", 2013).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SeenTriangle {
     normal: DVec3,

@@ -10,14 +10,15 @@ use umbrage_core::{Image, Light, Texture};
 /// How to trace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Points of the light for every pixel. 1 (or 0) is the one ray to the light's centre: the perfect hard shadow, which
-    /// lights without extent get anyway.
+    /// Points of the light for every pixel. 1 (or 0) is the one ray to the light's centre: the
+    /// perfect hard shadow, which lights without extent get anyway.
     pub samples: u32,
-    /// Gathers the casters that can lie between a pixel and the light once, and tests samples against them alone. The
-    /// result is the same to the last bit; without it every sample goes through the whole hierarchy.
+    /// Gathers the casters that can lie between a pixel and the light once, and tests samples
+    /// against them alone. The result is the same to the last bit; without it every sample goes
+    /// through the whole hierarchy.
     pub gather: bool,
-    /// All pixels use the same points of the light: what differs between two points of a surface is then what is in the way alone.
-    /// Without it noise takes the place of bands.
+    /// All pixels use the same points of the light: what differs between two points of a surface is
+    /// then what is in the way alone. Without it noise takes the place of bands.
     pub same_points: bool,
 }
 
@@ -40,8 +41,9 @@ pub struct Truth {
 }
 
 impl Tracer {
-    /// Traces the visibility of `light` for what `geometry` shows; `textures` are the scene's. All threads of the
-    /// current rayon pool take part. `progress` is told, from any of them, how many of how many pixels are done.
+    /// Traces the visibility of `light` for what `geometry` shows; `textures` are the scene's. All
+    /// threads of the current rayon pool take part. `progress` is told, from any of them, how many
+    /// of how many pixels are done.
     pub fn visibility(
         &self,
         geometry: &Geometry,
@@ -74,8 +76,8 @@ impl Tracer {
         }
     }
 
-    /// The visibility of `light`, 0…1, for one point of a surface. `seed` chooses among the sets of samples, as a
-    /// pixel's index does.
+    /// The visibility of `light`, 0…1, for one point of a surface. `seed` chooses among the sets of
+    /// samples, as a pixel's index does.
     pub fn visibility_at(
         &self,
         surface: &Surface,

@@ -5,8 +5,8 @@ use umbrage::{Casters, Error, Recorder, Settings, Technique};
 use umbrage_core::Light;
 
 impl Renderer {
-    /// From the next frame on makes pictures of `width` × `height`. Pipelines, casters and techniques stay; techniques make
-    /// what depends on the size in that frame.
+    /// From the next frame on makes pictures of `width` × `height`. Pipelines, casters and
+    /// techniques stay; techniques make what depends on the size in that frame.
     ///
     /// # Errors
     /// [`Error::Size`] beyond the adapter's limits; then everything stays as it was.
@@ -27,7 +27,8 @@ impl Renderer {
         Ok(())
     }
 
-    /// From the next frame on `technique` works for pass number `pass`; everything else stays, and its light where it is.
+    /// From the next frame on `technique` works for pass number `pass`; everything else stays, and
+    /// its light where it is.
     ///
     /// # Errors
     /// [`Error::Scene`] where there is no such pass.
@@ -36,12 +37,14 @@ impl Renderer {
         lit.exchange(&self.gpu, &self.shading, technique, self.targets.size()).map(|_| ())
     }
 
-    /// From the next frame on pass number `pass` works by `settings`, everything else stays. True where its technique took them
-    /// over; else it was made anew, as the settings make it. (What they do not say gets lost then: whoever wraps techniques, as
-    /// [`umbrage::light_samples()`] does, uses [`Renderer::set_technique`].)
+    /// From the next frame on pass number `pass` works by `settings`, everything else stays. True
+    /// where its technique took them over; else it was made anew, as the settings make it. (What
+    /// they do not say gets lost then: whoever wraps techniques, as [`umbrage::light_samples()`]
+    /// does, uses [`Renderer::set_technique`].)
     ///
     /// # Errors
-    /// What making the technique gives; [`Error::Scene`] where there is no such pass. Then all stays as it was.
+    /// What making the technique gives; [`Error::Scene`] where there is no such pass. Then all
+    /// stays as it was.
     pub fn set_settings(&mut self, pass: usize, settings: &Settings) -> Result<bool, Error> {
         let lit = self.lights.get_mut(pass).ok_or_else(|| no_pass(pass))?;
         if lit.technique.set(&self.gpu, settings)? {
@@ -51,8 +54,8 @@ impl Renderer {
         Ok(false)
     }
 
-    /// Puts `new` in the place of pass number `pass` and gives back what was there. Geometry, targets and pipelines stay;
-    /// the light is as the scene has it.
+    /// Puts `new` in the place of pass number `pass` and gives back what was there. Geometry,
+    /// targets and pipelines stay; the light is as the scene has it.
     ///
     /// # Errors
     /// [`Error::Scene`] where there is no such pass or light, and for a light of another pass.
@@ -67,15 +70,17 @@ impl Renderer {
         Ok(LightPass { light: std::mem::replace(&mut lit.number, new.light), technique })
     }
 
-    /// Records with `new` from the next frame on and gives back what was in use. Upload memory goes with it, and the GPU times that a
-    /// technique sees of its last frame: where techniques take turns, each has a recorder of its own.
+    /// Records with `new` from the next frame on and gives back what was in use. Upload memory goes
+    /// with it, and the GPU times that a technique sees of its last frame: where techniques take
+    /// turns, each has a recorder of its own.
     pub fn exchange_recorder(&mut self, new: Recorder) -> Recorder {
         std::mem::replace(&mut self.recorder, new)
     }
 
-    /// From the next frame on shades by the single-pass algorithm (PX 3.4): every light shines everywhere, and whatever is in
-    /// the shadow of any of them loses this share of its light; wrong, and kept to be compared with. The first light's technique
-    /// does all lights. `None` returns to the right one.
+    /// From the next frame on shades by the single-pass algorithm (PX 3.4): every light shines
+    /// everywhere, and whatever is in the shadow of any of them loses this share of its light;
+    /// wrong, and kept to be compared with. The first light's technique does all lights. `None`
+    /// returns to the right one.
     ///
     /// # Errors
     /// [`Error::Size`].

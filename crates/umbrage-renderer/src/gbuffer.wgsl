@@ -49,7 +49,8 @@ fn vertex(
 }
 
 fn targets(in: Surface, base: vec4f) -> Targets {
-    // The triangle's own normal, from how the position changes over the screen; never along the line of sight.
+    // The triangle's own normal, from how the position changes over the screen; never along the
+    // line of sight.
     let cross_product = cross(dpdx(in.from_eye), dpdy(in.from_eye));
     let area = length(cross_product);
     let face = select(-normalize(in.from_eye), cross_product / area, area > 0.0);

@@ -1,5 +1,6 @@
-//! A renderer over `umbrage`: a G-buffer, each light added under its visibility (or its radiance as it is), tone mapping. It is one consumer of the
-//! library among others: whatever it uses of it, a host engine may use as well.
+//! A renderer over `umbrage`: a G-buffer, each light added under its visibility (or its radiance as
+//! it is), tone mapping. It is one consumer of the library among others: whatever it uses of it, a
+//! host engine may use as well.
 //!
 //! ```no_run
 //! # fn picture(gpu: &umbrage::Gpu, scene: &umbrage::core::Scene) -> Result<(), umbrage::Error> {
@@ -62,8 +63,8 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// Uploads `scene` and makes targets of `width` × `height`. Lights without a pass do not shine; the same light may
-    /// come once only.
+    /// Uploads `scene` and makes targets of `width` × `height`. Lights without a pass do not shine;
+    /// the same light may come once only.
     ///
     /// # Errors
     /// [`Error::Size`] beyond the adapter's limits, [`Error::Scene`] for a light that is not there.
@@ -107,11 +108,13 @@ impl Renderer {
         self.draw(camera, &picture, PICTURE)
     }
 
-    /// The same to a host's `target`, in place of [`Renderer::picture`]: a texture view of all of a texture that is as large as
-    /// this renderer's pictures, seen as `format`. Where `format` is neither sRGB nor of floats, the values are encoded as sRGB.
+    /// The same to a host's `target`, in place of [`Renderer::picture`]: a texture view of all of a
+    /// texture that is as large as this renderer's pictures, seen as `format`. Where `format` is
+    /// neither sRGB nor of floats, the values are encoded as sRGB.
     ///
     /// # Errors
-    /// As [`Renderer::frame`]; [`Error::Scene`] for a target of another size, or a format that is not one of colours.
+    /// As [`Renderer::frame`]; [`Error::Scene`] for a target of another size, or a format that is
+    /// not one of colours.
     pub fn frame_into(
         &mut self,
         camera: &Camera,
@@ -183,8 +186,9 @@ impl Renderer {
         self.recorder.times()
     }
 
-    /// CPU time that [`Technique::prepare`] took in the last frame, all lights together, milliseconds. Recording does not count, but in
-    /// an overlay, which is prepared and recorded in one.
+    /// CPU time that [`Technique::prepare`] took in the last frame, all lights together,
+    /// milliseconds. Recording does not count, but in an overlay, which is prepared and recorded in
+    /// one.
     pub fn prepare_ms(&self) -> f64 {
         self.prepare_ms
     }
@@ -194,7 +198,8 @@ impl Renderer {
         self.lights.get(pass).map(|l| l.technique.inside().stats()).unwrap_or_default()
     }
 
-    /// More numbers of the last frame of pass number `pass`; see [`Inside::counts`](umbrage::Inside::counts).
+    /// More numbers of the last frame of pass number `pass`; see
+    /// [`Inside::counts`](umbrage::Inside::counts).
     pub fn counts(&self, pass: usize) -> Vec<(&'static str, u64)> {
         self.lights.get(pass).map(|l| l.technique.inside().counts()).unwrap_or_default()
     }

@@ -52,7 +52,8 @@ impl Target {
 }
 
 impl Lit {
-    /// Gives the light another technique and returns the one that it had. The target stays where it does for both.
+    /// Gives the light another technique and returns the one that it had. The target stays where it
+    /// does for both.
     pub fn exchange(
         &mut self,
         gpu: &Gpu,

@@ -1,5 +1,6 @@
-//! The single-pass algorithm (PX 3.4): all lights shine everywhere, then one overlay darkens every point in any shadow. Wrong
-//! wherever a point sees one light and not another; kept to be compared with.
+//! The single-pass algorithm (PX 3.4): all lights shine everywhere, then one overlay darkens every
+//! point in any shadow. Wrong wherever a point sees one light and not another; kept to be compared
+//! with.
 
 use crate::lit::{Lit, Visible};
 use crate::targets::WIDE;

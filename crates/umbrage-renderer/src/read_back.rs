@@ -5,8 +5,8 @@ use umbrage::{Answer, DebugView, Error, read};
 use umbrage_core::{Camera, Image};
 
 impl Renderer {
-    /// The tone-mapped picture of the last [`Renderer::frame`], sRGB and opaque: to be sampled or copied from. Another
-    /// one after [`Renderer::resize`].
+    /// The tone-mapped picture of the last [`Renderer::frame`], sRGB and opaque: to be sampled or
+    /// copied from. Another one after [`Renderer::resize`].
     pub fn picture(&self) -> &wgpu::Texture {
         &self.targets.picture
     }
@@ -24,10 +24,12 @@ impl Renderer {
         read::rgba8(&self.gpu, self.picture())
     }
 
-    /// The visibility that pass number `pass` left, 0…1. What non-receiving surfaces hold means nothing.
+    /// The visibility that pass number `pass` left, 0…1. What non-receiving surfaces hold means
+    /// nothing.
     ///
     /// # Errors
-    /// [`Error::Scene`] where there is no such pass; [`Error::Unsupported`] where it answers with radiance.
+    /// [`Error::Scene`] where there is no such pass; [`Error::Unsupported`] where it answers with
+    /// radiance.
     pub fn visibility(&self, pass: usize) -> Result<Image<f32>, Error> {
         match self.target(pass)? {
             Target::Visibility(target, _) => target.read(&self.gpu),
@@ -38,7 +40,8 @@ impl Renderer {
     /// The radiance that pass number `pass` left, red, green and blue.
     ///
     /// # Errors
-    /// [`Error::Scene`] where there is no such pass; [`Error::Unsupported`] where it answers with visibility.
+    /// [`Error::Scene`] where there is no such pass; [`Error::Unsupported`] where it answers with
+    /// visibility.
     pub fn radiance(&self, pass: usize) -> Result<Image<[f32; 3]>, Error> {
         match self.target(pass)? {
             Target::Radiance(target, _) => target.read(&self.gpu),

@@ -1,4 +1,5 @@
-//! All that has the size of the picture: textures, and bind groups of them. A new size makes these anew and nothing else.
+//! All that has the size of the picture: textures, and bind groups of them. A new size makes these
+//! anew and nothing else.
 
 use crate::{shading::Shading, tonemap::ToneMap};
 use umbrage::{Gpu, Receivers, fullscreen::target_texture};
@@ -27,7 +28,8 @@ pub(crate) struct GBuffer {
     pub depth: wgpu::Texture,
     /// Of the depth alone.
     pub depth_view: wgpu::TextureView,
-    /// Of depth and stencil, for techniques that count in it; `None` where the adapter has no such format.
+    /// Of depth and stencil, for techniques that count in it; `None` where the adapter has no such
+    /// format.
     pub stencil_view: Option<wgpu::TextureView>,
     /// Geometric normal turned to the eye, packed.
     pub normal: wgpu::Texture,

@@ -1,5 +1,6 @@
 // needs: fullscreen
-// Radiance to display: unchanged up to 0.8, then rolled off to 1, so that shadows are seen as they were computed.
+// Radiance to display: unchanged up to 0.8, then rolled off to 1, so that shadows are seen as they
+// were computed.
 
 @group(0) @binding(0) var radiance_texture: texture_2d<f32>;
 

@@ -1,4 +1,5 @@
-//! What changes between frames leaves pictures as a renderer made anew would draw them. Needs a graphics adapter.
+//! What changes between frames leaves pictures as a renderer made anew would draw them. Needs a
+//! graphics adapter.
 
 use umbrage::core::{Image, Scene};
 use umbrage::fullscreen::{self, FLOATS, Fullscreen, attachment, bind, layout, target_texture};

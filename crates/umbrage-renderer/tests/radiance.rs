@@ -1,4 +1,5 @@
-//! A technique whose answer is radiance, among those that answer with visibility. Needs a graphics adapter.
+//! A technique whose answer is radiance, among those that answer with visibility. Needs a graphics
+//! adapter.
 
 use umbrage::core::{Image, Scene};
 use umbrage::fullscreen::attachment;

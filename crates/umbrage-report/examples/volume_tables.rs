@@ -1,9 +1,11 @@
-//! Measures the choices of shadow volumes that PX, ZA and GG quote prices for, and writes them down.
+//! Measures the choices of shadow volumes that PX, ZA and GG quote prices for, and writes them
+//! down.
 //!
 //!     cargo run --release -p umbrage-report --example volume_tables -- FOLDER [FRAMES]
 //!
-//! FOLDER gets the raw numbers of each arrangement of lights, as `umbrage bench --json` prints them, and a README.md with
-//! the tables. Techniques take turns frame by frame, and the lights move.
+//! FOLDER gets the raw numbers of each arrangement of lights, as `umbrage bench --json` prints
+//! them, and a README.md with the tables. Techniques take turns frame by frame, and the lights
+//! move.
 
 use std::{error::Error, fs, path::PathBuf};
 use umbrage::Gpu;
@@ -283,7 +285,8 @@ fn rows(table: &Table, report: &BenchReport) -> Result<String, Box<dyn Error>> {
     Ok(text)
 }
 
-/// What a way costs, and how many times as much as the first one of its table; or why it was not measured.
+/// What a way costs, and how many times as much as the first one of its table; or why it was not
+/// measured.
 fn cell(light: &BenchLight, way: &str, first: &str) -> Result<String, Box<dyn Error>> {
     let (this, first) = (result(light, way)?, result(light, first)?);
     let Some(cost) = &this.cost else { return Ok(this.reason.clone().unwrap_or_default()) };

@@ -48,10 +48,12 @@ pub struct Outcome {
 }
 
 impl Compare {
-    /// Runs all of it. What a technique can't do and what goes wrong in it is recorded in its place.
+    /// Runs all of it. What a technique can't do and what goes wrong in it is recorded in its
+    /// place.
     ///
     /// # Errors
-    /// What stops everything: sizes beyond the adapter's limit, settings that can't be, references that can't be read.
+    /// What stops everything: sizes beyond the adapter's limit, settings that can't be, references
+    /// that can't be read.
     pub fn run(&self, gpu: &Gpu, progress: &dyn Progress) -> Result<Outcome, Error> {
         self.check(gpu)?;
         let mut run = Run { plan: self, gpu, progress, pictures: Pictures::default() };

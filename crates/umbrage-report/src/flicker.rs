@@ -1,4 +1,5 @@
-//! What changes at fixed points of the scene while the camera moves: in each technique, and in the truth.
+//! What changes at fixed points of the scene while the camera moves: in each technique, and in the
+//! truth.
 
 use crate::{error::Error, source::Source};
 use umbrage_core::{Camera, Image, Light, glam::Vec3};

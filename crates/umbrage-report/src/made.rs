@@ -11,7 +11,8 @@ pub struct Made {
     pub date: String,
     /// Version of umbrage.
     pub version: &'static str,
-    /// Abbreviated git commit that the program was built from, changes beyond it aside; null where it is not known.
+    /// Abbreviated git commit that the program was built from, changes beyond it aside; null where
+    /// it is not known.
     pub commit: Option<&'static str>,
     /// The command line, word by word.
     pub command: Vec<String>,

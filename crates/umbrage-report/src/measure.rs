@@ -26,8 +26,8 @@ impl Frames {
         Ok(())
     }
 
-    /// A frame to warm up, then up to `count` frames, fewer where they take longer than `limit` together. Each does all
-    /// of the work, as if nothing had been drawn before.
+    /// A frame to warm up, then up to `count` frames, fewer where they take longer than `limit`
+    /// together. Each does all of the work, as if nothing had been drawn before.
     pub(crate) fn measure(
         renderer: &mut Renderer,
         camera: &Camera,
@@ -66,8 +66,8 @@ impl Frames {
         Spread::of(self.prepare_ms.iter().copied())
     }
 
-    /// GPU time of each pass, in the order in which they were recorded. Passes of one name in a frame are added up; one that a
-    /// frame left out took no time.
+    /// GPU time of each pass, in the order in which they were recorded. Passes of one name in a
+    /// frame are added up; one that a frame left out took no time.
     pub(crate) fn passes(&self) -> Vec<(Owner, String, Spread)> {
         let mut names: Vec<(Owner, &str)> = Vec::new();
         for time in self.passes.iter().flatten() {

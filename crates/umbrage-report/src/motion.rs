@@ -1,4 +1,5 @@
-//! Small motion for measurements: what a technique keeps from frame to frame is worth nothing where all moves.
+//! Small motion for measurements: what a technique keeps from frame to frame is worth nothing where
+//! all moves.
 
 use crate::error::Error;
 use serde::Serialize;
@@ -12,14 +13,17 @@ use umbrage_renderer::Renderer;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Moving {
-    /// Nothing, and every frame does all of the work: what techniques keep from frame to frame is dropped.
+    /// Nothing, and every frame does all of the work: what techniques keep from frame to frame is
+    /// dropped.
     #[default]
     None,
     /// Nothing, and what techniques keep is used again.
     Still,
-    /// Lights go round a level circle whose radius is 5 % of that of the scene; parallel light turns by 3 degrees.
+    /// Lights go round a level circle whose radius is 5 % of that of the scene; parallel light
+    /// turns by 3 degrees.
     Lights,
-    /// Everything that casts and is not flat sinks and rises by 5 % of its smallest side; animations run.
+    /// Everything that casts and is not flat sinks and rises by 5 % of its smallest side;
+    /// animations run.
     Casters,
     /// The eye circles by 2 % of its distance from what it looks at.
     Camera,
@@ -33,7 +37,8 @@ const LIGHT_SHARE: f64 = 0.05;
 const LIGHT_TURN_DEG: f64 = 3.0;
 const SINK_SHARE: f64 = 0.05;
 const EYE_SHARE: f64 = 0.02;
-/// Neighbours move out of step by this share of the way round, so that not all are in the same place at once.
+/// Neighbours move out of step by this share of the way round, so that not all are in the same
+/// place at once.
 const STEP: f64 = 0.382;
 
 impl Moving {
@@ -91,7 +96,8 @@ impl<'a> Motion<'a> {
         Self { moving, scene, radius: scene.bounds().radius(), sinking, bending }
     }
 
-    /// Moves the lights (one a pass) and the casters of `renderer` to where they are in frame `frame`.
+    /// Moves the lights (one a pass) and the casters of `renderer` to where they are in frame
+    /// `frame`.
     pub(crate) fn apply(&self, gpu: &Gpu, renderer: &mut Renderer, lights: &[usize], frame: u32) {
         if self.moving.moves(Moving::Lights) {
             for (pass, &number) in lights.iter().enumerate() {
@@ -110,7 +116,8 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// The joints of an instance in frame `frame`: its animation runs once in a period, starting where the scene has it.
+    /// The joints of an instance in frame `frame`: its animation runs once in a period, starting
+    /// where the scene has it.
     fn joints(&self, number: usize, frame: u32) -> Vec<DAffine3> {
         let mut instance = self.scene.instances[number].clone();
         if let Some(pose) = &mut instance.pose

@@ -1,4 +1,5 @@
-//! Output that is whole or absent: places are checked before the work, files written beside and renamed.
+//! Output that is whole or absent: places are checked before the work, files written beside and
+//! renamed.
 
 use crate::error::Error;
 use std::{
@@ -14,8 +15,8 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// Makes sure that files can be written there, before long work starts. A folder that is missing is made with
-    /// the first file, so that work that fails leaves nothing behind.
+    /// Makes sure that files can be written there, before long work starts. A folder that is
+    /// missing is made with the first file, so that work that fails leaves nothing behind.
     ///
     /// # Errors
     /// [`Error::Output`].

@@ -1,4 +1,5 @@
-//! Ways of the camera through a scene, in steps of about a pixel: shadow edges that crawl or jump on the way are seen there.
+//! Ways of the camera through a scene, in steps of about a pixel: shadow edges that crawl or jump
+//! on the way are seen there.
 
 use crate::error::Error;
 use serde::Serialize;
@@ -6,7 +7,8 @@ use std::str::FromStr;
 use umbrage_core::Camera;
 use umbrage_core::glam::DQuat;
 
-/// How the camera moves. What is as far away as the middle of the picture moves by about a pixel a frame.
+/// How the camera moves. What is as far away as the middle of the picture moves by about a pixel a
+/// frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum CameraPath {
@@ -23,7 +25,8 @@ pub enum CameraPath {
 /// Forward, to the right, up, and round.
 type Share = [f64; 4];
 
-/// Where the camera turns back, steps, at the latest; it has then gone a quarter of the way to what it looks at.
+/// Where the camera turns back, steps, at the latest; it has then gone a quarter of the way to what
+/// it looks at.
 const MOST_STEPS: u32 = 48;
 
 impl CameraPath {
@@ -56,7 +59,8 @@ impl CameraPath {
         let pixel = 2.0 * (start.fov_y_deg.to_radians() * 0.5).tan() / f64::from(height);
         let [right, up, forward] = start.axes();
         let [walk, strafe, rise, turn] = self.share().map(|share| share * steps);
-        // Half way to the upper edge of the picture things move by a pixel when the way ahead gets shorter by this.
+        // Half way to the upper edge of the picture things move by a pixel when the way ahead gets
+        // shorter by this.
         let ahead = 4.0 / f64::from(height);
         let by = (forward * walk * ahead + (right * strafe + up * rise) * pixel) * distance;
         let round = DQuat::from_axis_angle(up, -turn * pixel);
@@ -64,7 +68,8 @@ impl CameraPath {
     }
 }
 
-/// How far along the way frame `frame` is: there and back, in steps of 0.6 to 1.4, no two alike, so that no grid keeps pace.
+/// How far along the way frame `frame` is: there and back, in steps of 0.6 to 1.4, no two alike, so
+/// that no grid keeps pace.
 fn steps(frame: u32, height: u32) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let turn = (height / 16).clamp(2, MOST_STEPS);

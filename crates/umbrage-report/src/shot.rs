@@ -66,7 +66,8 @@ pub struct Shot {
     pub size: (u32, u32),
     /// What it shows.
     pub aov: Aov,
-    /// Shades by the single-pass algorithm: this share of the light is missing in any light's shadow.
+    /// Shades by the single-pass algorithm: this share of the light is missing in any light's
+    /// shadow.
     pub overlay: Option<f32>,
 }
 
@@ -102,7 +103,8 @@ impl Shot {
     /// Takes it. `gpu` may be absent where [`Shot::needs_gpu`] is false.
     ///
     /// # Errors
-    /// Lights and settings that the technique can't do, sizes beyond the adapter's limit, unknown views.
+    /// Lights and settings that the technique can't do, sizes beyond the adapter's limit, unknown
+    /// views.
     pub fn take(&self, gpu: Option<&Gpu>, progress: &dyn Progress) -> Result<Picture, Error> {
         for &light in &self.lights {
             self.source.light(light)?;
@@ -251,8 +253,9 @@ impl Picture {
 
     /// Writes the picture as the extension says: PNG to look at, EXR with the numbers as they are.
     ///
-    /// In a PNG shares are 16-bit grey, depth is the nearest over the distance in 16-bit grey, what is inside of a technique
-    /// is 16-bit grey with its largest value white, normals are 8-bit (n + 1) / 2.
+    /// In a PNG shares are 16-bit grey, depth is the nearest over the distance in 16-bit grey, what
+    /// is inside of a technique is 16-bit grey with its largest value white, normals are 8-bit
+    /// (n + 1) / 2.
     ///
     /// # Errors
     /// A file that can't be written.
@@ -277,7 +280,8 @@ impl Picture {
     }
 }
 
-/// Scaled so that the largest value is 1: depths of a light to all sides, near over distance, are thousandths as they are.
+/// Scaled so that the largest value is 1: depths of a light to all sides, near over distance, are
+/// thousandths as they are.
 fn largest_white(image: &Image<f32>) -> Image<f32> {
     let largest = image.data.iter().copied().fold(0.0, f32::max);
     let scale = if largest > 0.0 { largest.recip() } else { 1.0 };

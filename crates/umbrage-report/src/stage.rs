@@ -1,4 +1,5 @@
-//! One renderer for many techniques: geometry, targets and the renderer's own pipelines are made once for a scene.
+//! One renderer for many techniques: geometry, targets and the renderer's own pipelines are made
+//! once for a scene.
 
 use crate::{choice::Choice, error::Error, source::Source};
 use umbrage::{Gpu, Recorder, Technique, baseline};
@@ -13,7 +14,8 @@ pub(crate) struct Stage<'a> {
     renderer: Option<Renderer>,
 }
 
-/// A technique that takes turns on a [`Stage`], with a recorder of its own: what it knows of its last frame stays true.
+/// A technique that takes turns on a [`Stage`], with a recorder of its own: what it knows of its
+/// last frame stays true.
 pub(crate) struct Actor {
     technique: Box<dyn Technique>,
     recorder: Recorder,
@@ -38,8 +40,8 @@ impl<'a> Stage<'a> {
         Self { gpu, source, size, renderer: None }
     }
 
-    /// Does `work` with `actor` on a light, and gives the actor back. Whatever fails takes the renderer with it, so that nothing of
-    /// one technique's failure is left for the next.
+    /// Does `work` with `actor` on a light, and gives the actor back. Whatever fails takes the
+    /// renderer with it, so that nothing of one technique's failure is left for the next.
     ///
     /// # Errors
     /// Those of `work`, and what the driver reports meanwhile.
@@ -77,7 +79,8 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// Ends a run before its long work where none of its techniques can be made; one that can't be is one cell's failure.
+/// Ends a run before its long work where none of its techniques can be made; one that can't be is
+/// one cell's failure.
 ///
 /// # Errors
 /// That of the first.

@@ -1,9 +1,10 @@
-//! A host engine with its own device, depth buffer and camera gets the visibility of a light from umbrage.
+//! A host engine with its own device, depth buffer and camera gets the visibility of a light from
+//! umbrage.
 //!
 //!     cargo run -p umbrage --example bring_your_own_renderer
 //!
-//! The "engine" draws a turning box over a floor into a depth buffer of its own, finite and not reversed, and asks for
-//! the shadow of one light. It prints how much is lit in a few frames.
+//! The "engine" draws a turning box over a floor into a depth buffer of its own, finite and not
+//! reversed, and asks for the shadow of one light. It prints how much is lit in a few frames.
 
 use umbrage::core::glam::{DAffine3, DMat4, DVec3, DVec4};
 use umbrage::core::{CameraView, Light, LightShape, Material, Scene, primitive};

@@ -7,10 +7,12 @@ use umbrage_core::Image;
 /// What a technique leaves in its target.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Answer {
-    /// The share of a light that each pixel sees, in a [`crate::VisibilityTarget`]: [`crate::Technique::record`].
+    /// The share of a light that each pixel sees, in a [`crate::VisibilityTarget`]:
+    /// [`crate::Technique::record`].
     #[default]
     Visibility,
-    /// The light that leaves what each pixel shows for the eye, in a [`RadianceTarget`]: [`crate::Technique::record_radiance`].
+    /// The light that leaves what each pixel shows for the eye, in a [`RadianceTarget`]:
+    /// [`crate::Technique::record_radiance`].
     Radiance,
 }
 
@@ -31,8 +33,9 @@ impl Answer {
     }
 }
 
-/// The light that leaves the surface of each pixel for the eye because of one light, in red, green and blue, as
-/// `Rgba16Float`; nothing where nothing is. The shading of the surface is in it. A host adds it to the picture as it is.
+/// The light that leaves the surface of each pixel for the eye because of one light, in red, green
+/// and blue, as `Rgba16Float`; nothing where nothing is. The shading of the surface is in it. A
+/// host adds it to the picture as it is.
 #[derive(Clone, Debug)]
 pub struct RadianceTarget {
     /// The texture; sampled by whoever adds it to the picture, copied by whoever measures.
@@ -66,7 +69,8 @@ impl RadianceTarget {
         same_size("radiance", self.size, receivers.size)
     }
 
-    /// A colour attachment that keeps what a full-screen pass leaves; nothing of the old content is read.
+    /// A colour attachment that keeps what a full-screen pass leaves; nothing of the old content is
+    /// read.
     pub fn overwrite(&self) -> Option<wgpu::RenderPassColorAttachment<'_>> {
         attachment(&self.view, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT))
     }

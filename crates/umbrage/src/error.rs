@@ -75,7 +75,8 @@ fn suggestion(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or(String::new(), |n| format!("; did you mean `{n}`?"))
 }
 
-/// The name among `known` nearest to `name`, where one is near enough to be meant: for "did you mean".
+/// The name among `known` nearest to `name`, where one is near enough to be meant: for "did you
+/// mean".
 pub fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
     known
         .map(|k| (strsim::damerau_levenshtein(&name.to_lowercase(), k), k))

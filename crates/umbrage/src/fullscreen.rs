@@ -1,4 +1,5 @@
-//! What all full-screen passes share: their pipeline, their textures and the entries of their layouts.
+//! What all full-screen passes share: their pipeline, their textures and the entries of their
+//! layouts.
 
 use crate::gpu::Gpu;
 

@@ -43,8 +43,8 @@ impl AdapterSummary {
 }
 
 impl Gpu {
-    /// Features that make techniques faster or more exact and are asked for where the adapter has them. Every
-    /// technique either works without them or says that it can't.
+    /// Features that make techniques faster or more exact and are asked for where the adapter has
+    /// them. Every technique either works without them or says that it can't.
     pub const WANTED: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY
         .union(wgpu::Features::DEPTH_CLIP_CONTROL)
         .union(wgpu::Features::DEPTH32FLOAT_STENCIL8)
@@ -57,8 +57,8 @@ impl Gpu {
         enumerate().iter().map(|a| AdapterSummary::of(&a.get_info())).collect()
     }
 
-    /// A device of the best adapter, or of the one `wanted` names: a part of its name or kind (`software`,
-    /// `nvidia`, …), or its number in [`Gpu::adapters`].
+    /// A device of the best adapter, or of the one `wanted` names: a part of its name or kind
+    /// (`software`, `nvidia`, …), or its number in [`Gpu::adapters`].
     ///
     /// # Errors
     /// [`Error::NoAdapter`], [`Error::Unknown`] or [`Error::NoDevice`].
@@ -141,8 +141,8 @@ impl Gpu {
         polled.map(|_| ()).map_err(|e| Error::Driver(e.to_string()))
     }
 
-    /// Does `work` and takes what the driver reports meanwhile as its error, where [`Gpu::check`] would hold it against all that
-    /// comes later. A lost device stays lost.
+    /// Does `work` and takes what the driver reports meanwhile as its error, where [`Gpu::check`]
+    /// would hold it against all that comes later. A lost device stays lost.
     ///
     /// # Errors
     /// That of `work`, or else [`Error::Driver`].

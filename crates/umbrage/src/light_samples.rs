@@ -1,5 +1,5 @@
-//! Brute-force soft shadows: the mean of the hard visibilities from many points of the light, over any hard technique
-//! (ZA 1.4 and B.3; GG 9.2.1).
+//! Brute-force soft shadows: the mean of the hard visibilities from many points of the light, over
+//! any hard technique (ZA 1.4 and B.3; GG 9.2.1).
 
 use crate::{
     error::Error,
@@ -17,11 +17,12 @@ use umbrage_core::{Light, light_view::LightView, sampling::hard_lights};
 /// Shader of the adaptor, for the registry's tests.
 pub const SHADER: Shader = Shader::new("light samples", include_str!("wgsl/light_samples.wgsl"));
 
-/// Wraps the technique of `settings`, so that its visibility is the mean over `samples` points of the light.
+/// Wraps the technique of `settings`, so that its visibility is the mean over `samples` points of
+/// the light.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for a technique that is not hard; [`Error::Size`] for 0 samples or more than 2048; what
-/// making the technique itself gives.
+/// [`Error::Unsupported`] for a technique that is not hard; [`Error::Size`] for 0 samples or more
+/// than 2048; what making the technique itself gives.
 pub fn light_samples(gpu: &Gpu, settings: &Settings, samples: u32) -> Result<Box<dyn Technique>, Error> {
     let info = settings.info();
     if !info.hard {

@@ -1,8 +1,9 @@
-//! Recording: passes with names and GPU times, and uploads that happen in the order they are recorded.
+//! Recording: passes with names and GPU times, and uploads that happen in the order they are
+//! recorded.
 //!
-//! `Queue::write_buffer` takes effect before everything in the encoder, so a technique that is recorded twice in one
-//! encoder (brute force over many light samples) would see only its last uniforms. Uploads here are copies within
-//! the encoder, from a staging belt that keeps its memory.
+//! `Queue::write_buffer` takes effect before everything in the encoder, so a technique that is
+//! recorded twice in one encoder (brute force over many light samples) would see only its last
+//! uniforms. Uploads here are copies within the encoder, from a staging belt that keeps its memory.
 
 use crate::gpu::Gpu;
 use std::{
@@ -11,8 +12,8 @@ use std::{
 };
 use wgpu::util::StagingBelt;
 
-/// Passes that one frame can time (4096 queries are the most that WebGPU allows in a set). A frame with more has no
-/// times at all, rather than the sum of a part.
+/// Passes that one frame can time (4096 queries are the most that WebGPU allows in a set). A frame
+/// with more has no times at all, rather than the sum of a part.
 const MAX_TIMED: u32 = 2048;
 
 /// Whose a pass is.
@@ -65,8 +66,8 @@ impl Recorder {
         Passes { encoder, belt: &mut self.belt, timer: self.timer.as_mut(), owner: Owner::Host("") }
     }
 
-    /// GPU times of the newest frame whose results have arrived; empty without timestamps. Never waits: poll the
-    /// device first to be sure of the last frame.
+    /// GPU times of the newest frame whose results have arrived; empty without timestamps. Never
+    /// waits: poll the device first to be sure of the last frame.
     pub fn times(&mut self) -> Vec<PassTime> {
         self.timer.as_mut().map_or_else(Vec::new, Timer::collect)
     }
@@ -86,7 +87,8 @@ impl Passes<'_> {
         self.encoder
     }
 
-    /// Milliseconds on the GPU that all passes of the present owner took in the newest frame whose times have arrived.
+    /// Milliseconds on the GPU that all passes of the present owner took in the newest frame whose
+    /// times have arrived.
     pub fn last_ms(&self) -> Option<f64> {
         let own = self.timer.as_ref()?.latest.iter().filter(|t| t.owner == self.owner);
         own.map(|t| t.time_ms).reduce(|sum, ms| sum + ms)
@@ -138,7 +140,8 @@ impl Passes<'_> {
         self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes })
     }
 
-    /// Ends the frame: times are on their way, upload memory comes back when the GPU is done with it.
+    /// Ends the frame: times are on their way, upload memory comes back when the GPU is done with
+    /// it.
     pub fn finish(self) {
         if let Some(timer) = self.timer {
             timer.resolve(self.encoder);

@@ -87,7 +87,8 @@ impl Inside for Probe {
     }
 }
 
-/// Fails where the technique that `wrap` makes around another one keeps anything to itself. What it costs is its own.
+/// Fails where the technique that `wrap` makes around another one keeps anything to itself. What it
+/// costs is its own.
 pub fn assert_forwards(wrap: impl Fn(&Gpu, Box<dyn Technique>) -> Box<dyn Technique>) {
     let gpu = Gpu::request(None).expect("this test needs a graphics adapter");
     let calls = Arc::default();

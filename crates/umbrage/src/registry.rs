@@ -7,7 +7,8 @@ use crate::technique::{Technique, TechniqueInfo};
 use crate::{Gpu, techniques as built_in};
 use std::fmt;
 
-/// Techniques by id, in the order in which they are best explained. The default are those that are built in.
+/// Techniques by id, in the order in which they are best explained. The default are those that are
+/// built in.
 #[derive(Clone, Debug)]
 pub struct Registry {
     techniques: Vec<&'static TechniqueInfo>,
@@ -20,7 +21,8 @@ impl Default for Registry {
 }
 
 impl Registry {
-    /// Adds a technique from outside of the library, last; one of the same id gives its place up to it.
+    /// Adds a technique from outside of the library, last; one of the same id gives its place up to
+    /// it.
     #[must_use]
     pub fn with(mut self, info: &'static TechniqueInfo) -> Self {
         match self.techniques.iter_mut().find(|t| t.id == info.id) {
@@ -47,12 +49,14 @@ impl Registry {
         })
     }
 
-    /// Techniques that look up maps which others fit; with `warped` those that can do so where texels differ in size.
+    /// Techniques that look up maps which others fit; with `warped` those that can do so where
+    /// texels differ in size.
     pub fn filters(&self, warped: bool) -> impl Iterator<Item = &'static TechniqueInfo> + '_ {
         self.techniques.iter().copied().filter(move |t| t.filter.is_some_and(|f| f.warped || !warped))
     }
 
-    /// Settings of the technique `id` from pairs of name and value; what is not named keeps its default.
+    /// Settings of the technique `id` from pairs of name and value; what is not named keeps its
+    /// default.
     ///
     /// # Errors
     /// [`Error::Unknown`] for an id or a name, [`Error::Setting`] for a value.

@@ -7,16 +7,17 @@ use crate::{
 use std::any::Any;
 use umbrage_core::{LightKind, LightKinds, light_view::LightView};
 
-/// Finds which share of one light each visible point sees; or else what light goes from there to the eye because of it, see
-/// [`Answer`].
+/// Finds which share of one light each visible point sees; or else what light goes from there to
+/// the eye because of it, see [`Answer`].
 ///
 /// A frame is `prepare`, then `record`; both with the same view.
 pub trait Technique: Any + Send {
-    /// Everything the CPU does for this frame: fits light views, chooses casters, makes room. Creates GPU objects only
-    /// in the first frame and when a size or the kind of light changes.
+    /// Everything the CPU does for this frame: fits light views, chooses casters, makes room.
+    /// Creates GPU objects only in the first frame and when a size or the kind of light changes.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a light or view that the technique can't do, [`Error::Size`] beyond the limits.
+    /// [`Error::Unsupported`] for a light or view that the technique can't do, [`Error::Size`]
+    /// beyond the limits.
     fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error>;
 
     /// Records the passes that leave the light's visibility in `visibility`.
@@ -26,7 +27,8 @@ pub trait Technique: Any + Send {
     fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error>;
 
     /// Takes over settings that differ from its own in [live](Param::live) parameters only, see
-    /// [`Settings::differs_live`]. False where it can't: nothing has changed then, and a new technique is to be made.
+    /// [`Settings::differs_live`]. False where it can't: nothing has changed then, and a new
+    /// technique is to be made.
     ///
     /// # Errors
     /// [`Error::Size`] beyond the device's limits.
@@ -39,8 +41,9 @@ pub trait Technique: Any + Send {
         Answer::Visibility
     }
 
-    /// In place of [`Technique::record`] where the [answer](Technique::answer) is radiance: records the passes that leave in
-    /// `radiance` the light that goes from each visible point to the eye. Such a technique [refuses](Answer::refuse) `record`.
+    /// In place of [`Technique::record`] where the [answer](Technique::answer) is radiance: records
+    /// the passes that leave in `radiance` the light that goes from each visible point to the eye.
+    /// Such a technique [refuses](Answer::refuse) `record`.
     ///
     /// # Errors
     /// [`Error::Unsupported`] where the answer is visibility, and as [`Technique::prepare`].
@@ -68,15 +71,16 @@ pub trait Inside {
     /// Drops what earlier frames left to be used again: the next frame does all of the work.
     fn forget(&mut self) {}
 
-    /// The views of the light that the last frame rendered maps for; empty for techniques without maps. The
-    /// measurement uses them to tell how large a texel is on the screen.
+    /// The views of the light that the last frame rendered maps for; empty for techniques without
+    /// maps. The measurement uses them to tell how large a texel is on the screen.
     fn light_views(&self) -> &[LightView] {
         &[]
     }
 
-    /// Distances along the camera's view at which one of [`Inside::light_views`] ends and the next begins, metres,
-    /// ascending; empty where views are not chosen by distance. Between distances number i − 1 and i the view of layer i
-    /// counts, or that of layer i − 1 where it still covers the point, see [`umbrage_core::light_view::view_at`].
+    /// Distances along the camera's view at which one of [`Inside::light_views`] ends and the next
+    /// begins, metres, ascending; empty where views are not chosen by distance. Between distances
+    /// number i − 1 and i the view of layer i counts, or that of layer i − 1 where it still covers
+    /// the point, see [`umbrage_core::light_view::view_at`].
     fn split_distances(&self) -> &[f64] {
         &[]
     }
@@ -86,8 +90,8 @@ pub trait Inside {
         Vec::new()
     }
 
-    /// From the next frame on draws this one of [`TechniqueInfo::views`] where a frame does not make it anyway, and shows it
-    /// among [`Inside::debug_views`]; `None` and other names end that.
+    /// From the next frame on draws this one of [`TechniqueInfo::views`] where a frame does not
+    /// make it anyway, and shows it among [`Inside::debug_views`]; `None` and other names end that.
     fn inspect(&mut self, _view: Option<&str>) {}
 
     /// Pictures of what is inside, as far as the last frame made them.
@@ -101,7 +105,8 @@ pub trait Inside {
 pub struct Stats {
     /// Draw calls.
     pub draws: u32,
-    /// Triangles sent to the GPU; where the GPU chooses itself what to draw, those that it chooses from.
+    /// Triangles sent to the GPU; where the GPU chooses itself what to draw, those that it chooses
+    /// from.
     pub triangles: u64,
     /// Casters drawn, counted once for every view of the light.
     pub casters_drawn: u32,
@@ -158,7 +163,8 @@ pub struct TechniqueInfo {
     pub source: &'static str,
     /// What kind of thing it is.
     pub family: Family,
-    /// What it can look up of the maps that splits and warps fit; `None` where it has maps of its own only, or none.
+    /// What it can look up of the maps that splits and warps fit; `None` where it has maps of its
+    /// own only, or none.
     pub filter: Option<FilterUse>,
     /// The kinds of light it can do; soft kinds done as hard ones from their centre count.
     pub lights: LightKinds,
@@ -178,7 +184,8 @@ pub struct TechniqueInfo {
     pub readme: &'static str,
 }
 
-/// For [`TechniqueInfo::limits`]: so many storage buffers in one stage of a shader. WebGPU promises eight.
+/// For [`TechniqueInfo::limits`]: so many storage buffers in one stage of a shader. WebGPU promises
+/// eight.
 pub fn storage_buffers<const COUNT: u32>(limits: &mut wgpu::Limits) {
     limits.max_storage_buffers_per_shader_stage = COUNT;
 }
@@ -220,8 +227,8 @@ impl TechniqueInfo {
         (self.settings.default)()
     }
 
-    /// Checked settings from pairs of name and value; what is not named keeps its default. Filters are those that are
-    /// built in; [`Registry::settings`] knows others too.
+    /// Checked settings from pairs of name and value; what is not named keeps its default. Filters
+    /// are those that are built in; [`Registry::settings`] knows others too.
     ///
     /// # Errors
     /// [`Error::Unknown`] and [`Error::Setting`].

@@ -20,8 +20,9 @@ pub struct View<'a> {
 }
 
 impl View<'_> {
-    /// Camera-relative space to clip space: the camera's rotation and projection without its place. Working relative
-    /// to the eye keeps single precision exact near the camera, however far that is from the origin.
+    /// Camera-relative space to clip space: the camera's rotation and projection without its place.
+    /// Working relative to the eye keeps single precision exact near the camera, however far that
+    /// is from the origin.
     pub fn clip_from_eye(&self) -> DMat4 {
         let rotation = DMat4::from_mat3(self.camera.view_from_world.matrix3);
         self.camera.clip_from_view * rotation
@@ -44,7 +45,8 @@ impl View<'_> {
         4e-6 * points.iter().map(|p| p.abs().max_element()).fold(scene, f64::max)
     }
 
-    /// A box around the eye and the near rectangle: only what touches it can be cut open by the near plane, or hold the eye.
+    /// A box around the eye and the near rectangle: only what touches it can be cut open by the
+    /// near plane, or hold the eye.
     pub(crate) fn around_eye(&self) -> Bounds {
         let eye_from_clip = self.clip_from_eye().inverse();
         let near_depth = if self.camera.background_depth() == 0.0 { 1.0 } else { 0.0 };
@@ -56,8 +58,8 @@ impl View<'_> {
     }
 }
 
-/// A light at exactly the place of a vertex has no direction to cast it in. Moved by less than anybody sees, and
-/// along no axis, it has.
+/// A light at exactly the place of a vertex has no direction to cast it in. Moved by less than
+/// anybody sees, and along no axis, it has.
 pub(crate) fn off_ties(light: DVec4, rounding: f64) -> DVec4 {
     light + DVec3::new(0.1, 0.073, 0.087).extend(0.0) * (rounding * light.w)
 }

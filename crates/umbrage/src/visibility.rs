@@ -4,7 +4,8 @@ use crate::fullscreen::{attachment, target_texture};
 use crate::{error::Error, gpu::Gpu, read, receivers::Receivers};
 use umbrage_core::Image;
 
-/// The share of one light that each pixel sees, 0…1, as `R16Float`. PX calls it the LI buffer, SG the V-buffer.
+/// The share of one light that each pixel sees, 0…1, as `R16Float`. PX calls it the LI buffer, SG
+/// the V-buffer.
 #[derive(Clone, Debug)]
 pub struct VisibilityTarget {
     /// The texture; sampled by whoever shades, copied by whoever measures.
@@ -38,7 +39,8 @@ impl VisibilityTarget {
         same_size("visibility", self.size, receivers.size)
     }
 
-    /// A colour attachment that keeps what a full-screen pass leaves; nothing of the old content is read.
+    /// A colour attachment that keeps what a full-screen pass leaves; nothing of the old content is
+    /// read.
     pub fn overwrite(&self) -> Option<wgpu::RenderPassColorAttachment<'_>> {
         attachment(&self.view, wgpu::LoadOp::Clear(wgpu::Color::WHITE))
     }

@@ -1,4 +1,5 @@
-//! FE 5.1 to 5.4: one shadow map against parallel splits, with one compare and with a filter of 7×7.
+//! FE 5.1 to 5.4: one shadow map against parallel splits, with one compare and with a filter of
+//! 7×7.
 
 use super::{Run, bunny, file, head, make_scenes, measure, number, result, row};
 use crate::bench;
@@ -12,7 +13,8 @@ const FRAMES: u32 = 10;
 /// Triangles of the thesis' scenes. Its dragon's place is taken by a bunny of as many.
 const SCENES: [(&str, usize); 3] = [("primitives", 1300), ("bunny", 2947), ("dragon-sized", 47_826)];
 
-/// A table: two ways, and for each scene the thesis' frames a second and what it says of the quality.
+/// A table: two ways, and for each scene the thesis' frames a second and what it says of the
+/// quality.
 struct Table {
     title: &'static str,
     ways: [(&'static str, &'static str); 2],

@@ -1,4 +1,5 @@
-//! Tables of the sources measured again: the same methods on scenes of the same size, with the sources' numbers beside ours.
+//! Tables of the sources measured again: the same methods on scenes of the same size, with the
+//! sources' numbers beside ours.
 
 pub mod fe;
 pub mod px;
@@ -16,7 +17,8 @@ use std::{fs, path::PathBuf};
 /// Where scenes of the tables are made.
 const SCENES: &str = "target/tables";
 
-/// A run of the command: its arguments as words of a line, and the name of the file for its numbers.
+/// A run of the command: its arguments as words of a line, and the name of the file for its
+/// numbers.
 struct Run<'a> {
     file: &'a str,
     line: String,
@@ -40,7 +42,8 @@ fn bunny(triangles: usize) -> Result<String> {
     thin::thin(&fs::read_to_string(&path).with_context(missing)?, triangles)
 }
 
-/// Runs all of `runs`, files their numbers below `benchmarks/<date>-<machine>/NAME`, and gives them with that folder.
+/// Runs all of `runs`, files their numbers below `benchmarks/<date>-<machine>/NAME`, and gives them
+/// with that folder.
 fn measure(name: &str, runs: &[Run<'_>]) -> Result<(PathBuf, Vec<Value>)> {
     setup::run(Profile::Release)?;
     let mut found: Vec<Value> = Vec::new();
@@ -58,7 +61,8 @@ fn measure(name: &str, runs: &[Run<'_>]) -> Result<(PathBuf, Vec<Value>)> {
     Ok((bench::folder(made).join(name), found))
 }
 
-/// Prints `text`, and writes it as the folder's README, or beside one that is there already, since that has been worked on.
+/// Prints `text`, and writes it as the folder's README, or beside one that is there already, since
+/// that has been worked on.
 fn file(folder: &std::path::Path, text: &str) -> Result<()> {
     let readme = folder.join("README.md");
     let path = if readme.exists() { folder.join("tables.md") } else { readme };
@@ -67,7 +71,8 @@ fn file(folder: &std::path::Path, text: &str) -> Result<()> {
     Ok(())
 }
 
-/// The result of `label`, as lists of techniques have it, on the first light of scene number `scene`.
+/// The result of `label`, as lists of techniques have it, on the first light of scene number
+/// `scene`.
 fn result<'a>(json: &'a Value, scene: usize, label: &str) -> Option<&'a Value> {
     let mut words = label.split(':');
     let id = words.next()?;

@@ -1,4 +1,5 @@
-//! PX 4.5: wedges one by one and loop by loop against all of a light's in one draw, and how far that goes.
+//! PX 4.5: wedges one by one and loop by loop against all of a light's in one draw, and how far
+//! that goes.
 
 use super::{Run, file, head, make_scenes, measure, number, result, row};
 use crate::bench;
@@ -19,7 +20,8 @@ const SIZES: [&str; 2] = ["640x480", "1024x768"];
 /// One wedge after the other, one loop after the other, and all at once.
 const WAYS: [&str; 3] = ["wedges:batch=per-wedge", "wedges:batch=per-loop", "wedges"];
 
-/// Frames a second of the thesis by size, scene and way: one by one and by loop, on 900 MHz and on 3 GHz.
+/// Frames a second of the thesis by size, scene and way: one by one and by loop, on 900 MHz and on
+/// 3 GHz.
 const THESIS: [[[f64; 4]; 4]; 2] = [
     [[175.0, 168.0, 190.0, 179.0], [82.0, 103.5, 136.5, 108.0], [13.0, 21.5, 35.0, 22.0], [8.5, 16.0, 22.5, 16.5]],
     [[71.0, 68.0, 78.0, 73.0], [55.0, 42.0, 59.5, 44.0], [13.0, 9.0, 19.0, 8.5], [8.5, 6.5, 15.0, 6.5]],
@@ -54,7 +56,8 @@ fn scene(wedges: usize, models: &str) -> String {
     format!("name = \"{wedges} wedges\"\n\n{}{models}", include_str!("px.head.toml"))
 }
 
-/// Where plates are and how large they are: over a square of 8 m, as far above the ground as they are apart.
+/// Where plates are and how large they are: over a square of 8 m, as far above the ground as they
+/// are apart.
 fn places(count: usize) -> impl Iterator<Item = ([f64; 3], f64)> {
     let columns = (count as f64).sqrt().ceil() as usize;
     let apart = 8.0 / columns as f64;

@@ -1,4 +1,5 @@
-//! ZA 5.1 to 5.4: shadow volumes, filtered and soft maps on a basic and a huge scene, for static and dynamic light, and how right they are.
+//! ZA 5.1 to 5.4: shadow volumes, filtered and soft maps on a basic and a huge scene, for static
+//! and dynamic light, and how right they are.
 
 use super::{Run, bunny, file, frame_ms, head, make_scenes, measure, number, result, row};
 use crate::bench;
@@ -11,8 +12,9 @@ const BUNNY: usize = 16_301;
 const SIZES: [u32; 2] = [700, 900];
 const FRAMES: u32 = 8;
 
-/// Points of the light that brute force is measured with. Its time is proportional to them, so those of the tables are multiples
-/// of this one's; the huge scene with 64 would take longer than all the rest.
+/// Points of the light that brute force is measured with. Its time is proportional to them, so
+/// those of the tables are multiples of this one's; the huge scene with 64 would take longer than
+/// all the rest.
 const POINTS: u32 = 16;
 
 /// Scale, degrees of turn, and place of each bunny.
@@ -34,7 +36,8 @@ struct Method {
     technique: Option<&'static str>,
     /// Whether it averages over points of the light.
     brute: bool,
-    /// The thesis' milliseconds, static and dynamic, at 700² and 900²: 17,408 triangles with 64 points of the light.
+    /// The thesis' milliseconds, static and dynamic, at 700² and 900²: 17,408 triangles with 64
+    /// points of the light.
     basic: [f64; 4],
     /// The same with 100 points.
     hundred: [f64; 4],

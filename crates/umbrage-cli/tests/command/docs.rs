@@ -1,5 +1,6 @@
-//! The tables in the documentation say what the registry says. `cargo xtask docs` runs these tests with `UMBRAGE_WRITE_DOCS`
-//! set; they then write the tables instead of comparing them. Needs no GPU.
+//! The tables in the documentation say what the registry says. `cargo xtask docs` runs these tests
+//! with `UMBRAGE_WRITE_DOCS` set; they then write the tables instead of comparing them. Needs no
+//! GPU.
 
 use serde_json::Value;
 use std::{fs, path::Path, path::PathBuf};

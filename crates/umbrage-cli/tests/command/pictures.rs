@@ -1,5 +1,5 @@
-//! What `render`, `compare` and `bench` make. They need a graphics adapter: where there is none they fail, and the
-//! message says how to get one.
+//! What `render`, `compare` and `bench` make. They need a graphics adapter: where there is none
+//! they fail, and the message says how to get one.
 
 use crate::common::{files, output, umbrage};
 use serde_json::Value;
@@ -233,7 +233,8 @@ kind = \"point\"
 position = [1, 5, 1]
 ";
 
-/// A stored reference made by the reference itself, and changed by `change`, scored against `shadow-map`.
+/// A stored reference made by the reference itself, and changed by `change`, scored against
+/// `shadow-map`.
 fn mae_against(change: impl Fn(f32) -> f32) -> f64 {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name);

@@ -1,4 +1,5 @@
-//! What `sweep` makes. It needs a graphics adapter: where there is none the tests fail, and the message says how to get one.
+//! What `sweep` makes. It needs a graphics adapter: where there is none the tests fail, and the
+//! message says how to get one.
 
 use crate::common::{files, output, umbrage};
 use serde_json::{Value, json};

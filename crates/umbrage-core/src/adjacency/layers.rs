@@ -5,8 +5,8 @@ use crate::bounds::Bounds;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// The sum over all parts that edges hold together; see [`super::Adjacency::layers`]. A part that is not `rigid` may be convex now
-/// and not later.
+/// The sum over all parts that edges hold together; see [`super::Adjacency::layers`]. A part that
+/// is not `rigid` may be convex now and not later.
 pub(super) fn count(corners: &[[DVec3; 3]], edges: &[Edge], rigid: bool) -> u32 {
     let is_closed = edges.iter().all(Edge::is_balanced);
     let mut roots = Roots::of(corners.len(), edges);
@@ -69,9 +69,9 @@ impl Roots {
 
 /// True where a closed part is the surface of a convex body, the rounding of its vertices aside.
 ///
-/// The middle is under every triangle and seen from there they cover every direction once; no neighbour rises above a
-/// triangle, and none of some dozens of vertices all over the part. Without the last a dish of very many triangles
-/// would pass, flat at every single edge.
+/// The middle is under every triangle and seen from there they cover every direction once; no
+/// neighbour rises above a triangle, and none of some dozens of vertices all over the part. Without
+/// the last a dish of very many triangles would pass, flat at every single edge.
 fn is_convex<'a>(corners: &[[DVec3; 3]], triangles: &[(u32, u32)], mut edges: impl Iterator<Item = &'a Edge>) -> bool {
     let corners_of = |t: u32| corners[t as usize];
     let all = || triangles.iter().flat_map(|(_, t)| corners_of(*t));
@@ -81,7 +81,8 @@ fn is_convex<'a>(corners: &[[DVec3; 3]], triangles: &[(u32, u32)], mut edges: im
         return false;
     }
     let bounds = Bounds::of(all());
-    // Each coordinate is off by half a unit in the last place, of the corners of the triangle and the vertex above.
+    // Each coordinate is off by half a unit in the last place, of the corners of the triangle and
+    // the vertex above.
     let rounding = 4.0 * 2f64.powi(-24) * bounds.largest_coordinate();
     let top = |t: u32| Top::of(corners_of(t), covered.signum(), rounding);
     let spread: Vec<DVec3> = all().step_by((3 * triangles.len()).div_ceil(64)).collect();
@@ -103,7 +104,8 @@ struct Top {
     corner: DVec3,
     /// Unit length; zero where the triangle has no area.
     normal: DVec3,
-    /// How much a vertex may seem to rise above the plane, and how much more for every metre of distance.
+    /// How much a vertex may seem to rise above the plane, and how much more for every metre of
+    /// distance.
     rounding: f64,
     tilt: f64,
 }
@@ -112,8 +114,8 @@ impl Top {
     fn of([a, b, c]: [DVec3; 3], outwards: f64, rounding: f64) -> Self {
         let normal = (b - a).cross(c - a);
         let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-        // The lowest height of the triangle is what holds its plane against tilting. With 1 or more, as for a triangle
-        // without area, the plane says nothing.
+        // The lowest height of the triangle is what holds its plane against tilting. With 1 or
+        // more, as for a triangle without area, the plane says nothing.
         let tilt = (rounding * longest / normal.length()).min(1.0);
         Self { corner: a, normal: normal.normalize_or_zero() * outwards, rounding, tilt }
     }
@@ -205,8 +207,8 @@ mod tests {
 
     #[test]
     fn flat_bodies_are_not_convex() {
-        // Both sides of a sheet, and of another upon it. How much of the sky they cover seen from within is a matter of
-        // rounding; here it comes out as all of it, once.
+        // Both sides of a sheet, and of another upon it. How much of the sky they cover seen from
+        // within is a matter of rounding; here it comes out as all of it, once.
         let sheets = Mesh {
             positions: vec![Vec3::ZERO, Vec3::new(1.0, 0.33333334, -0.6666667), Vec3::new(-0.8233408, 0.25926557, 0.0)],
             indices: vec![0, 1, 2, 1, 0, 2, 2, 0, 1, 1, 0, 2],

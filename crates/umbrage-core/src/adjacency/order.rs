@@ -1,4 +1,5 @@
-//! An order in which things that are close to each other in space mostly stay so in a list (Morton 1966).
+//! An order in which things that are close to each other in space mostly stay so in a list (Morton
+//! 1966).
 
 use crate::bounds::Bounds;
 use glam::DVec3;

@@ -1,18 +1,21 @@
-//! Coverage of a piece of the disc, for lights that are split against the error of a single silhouette.
+//! Coverage of a piece of the disc, for lights that are split against the error of a single
+//! silhouette.
 
-/// A piece of the unit disc: what of it lies in a rectangle. Seen from a point, its silhouettes are those from one point on it.
+/// A piece of the unit disc: what of it lies in a rectangle. Seen from a point, its silhouettes are
+/// those from one point on it.
 ///
-/// With c that point, P the place where the ray from c through p leaves the piece and Q the one through q, the sector between them is
-/// ½ ∮ (X − c) × dX along the border from P to Q. That is a difference of ½ ∮ X × dX, which does not depend on c and is known in closed form for
-/// each side and for the arc, less ½ c × (Q − P). So c may be anywhere on the piece.
+/// With c that point, P the place where the ray from c through p leaves the piece and Q the one
+/// through q, the sector between them is ½ ∮ (X − c) × dX along the border from P to Q. That is a
+/// difference of ½ ∮ X × dX, which does not depend on c and is known in closed form for each side
+/// and for the arc, less ½ c × (Q − P). So c may be anywhere on the piece.
 #[derive(Clone, Copy, Debug)]
 pub struct Cell {
     /// The rectangle; ±[`NO_SIDE`] where the piece is bounded by the circle alone.
     pub low: [f64; 2],
     /// The same.
     pub high: [f64; 2],
-    /// What to add to x y on the right side, −x y on the upper one, x y on the left and −x y on the lower one so that they
-    /// run on around the piece as ∮ X × dX.
+    /// What to add to x y on the right side, −x y on the upper one, x y on the left and −x y on the
+    /// lower one so that they run on around the piece as ∮ X × dX.
     pub sides: [f64; 4],
     /// Direction of the arc's middle, from which angles count.
     pub arc_middle: [f64; 2],
@@ -41,7 +44,8 @@ fn minus(a: Point, b: Point) -> Point {
 }
 
 impl Cell {
-    /// The disc cut in `count` columns and rows of the same width; of 1 to 3 each piece has at most one arc.
+    /// The disc cut in `count` columns and rows of the same width; of 1 to 3 each piece has at most
+    /// one arc.
     pub fn grid(count: usize) -> Vec<Self> {
         let count = count.clamp(1, 3);
         let at = |i: usize| match i {
@@ -151,7 +155,8 @@ impl Cell {
         }
     }
 
-    /// The part of an edge from `from` to `to` that runs across the piece, both in the light's plane.
+    /// The part of an edge from `from` to `to` that runs across the piece, both in the light's
+    /// plane.
     pub fn chord(&self, from: Point, to: Point) -> Option<[Point; 2]> {
         let way = minus(to, from);
         let square = way[0] * way[0] + way[1] * way[1];
@@ -176,8 +181,8 @@ impl Cell {
         (start < end).then(|| [at(start), at(end)])
     }
 
-    /// A − S of a chord as a share of the piece, see [`super`], where silhouettes are those seen from `center`, a point on the piece,
-    /// which `is_left` of the chord or not.
+    /// A − S of a chord as a share of the piece, see [`super`], where silhouettes are those seen
+    /// from `center`, a point on the piece, which `is_left` of the chord or not.
     pub fn term(&self, center: Point, [from, to]: [Point; 2], is_left: bool) -> f64 {
         let ways = [minus(from, center), minus(to, center)];
         let [(p, part_p), (q, part_q)] = ways.map(|way| self.exit(center, way));
@@ -243,7 +248,8 @@ mod tests {
                 let border = outline(&cell);
                 let eye = mix_flat(cell.center, border[(way * 2000.0) as usize], far);
                 let edges = || (0..polygon.len()).map(|i| (polygon[i], polygon[(i + 1) % polygon.len()]));
-                // Where silhouettes are seen from a point that lies on one, the side is a matter of rounding.
+                // Where silhouettes are seen from a point that lies on one, the side is a matter of
+                // rounding.
                 let close = edges().any(|(a, b)| cross(minus(b, a), minus(eye, a)).abs() < 1e-6 * length(minus(b, a)));
                 if close {
                     continue;

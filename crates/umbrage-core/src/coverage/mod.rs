@@ -1,20 +1,23 @@
 //! How much of a light a caster covers, summed over the edges of its silhouette.
 //!
-//! Seen from a point, a light is a flat face: a disc, or a rectangle that its axes make a square. Let D be that face, c its
-//! centre, and for each directed edge A the signed share of D that the triangle between c and the edge takes, and S the
-//! signed share that lies within the angle under which c sees the edge. Around closed loops Σ S is how often c itself is
-//! covered, the number of hard shadows; Σ A is the covered share of D, by Green's theorem. So
+//! Seen from a point, a light is a flat face: a disc, or a rectangle that its axes make a square.
+//! Let D be that face, c its centre, and for each directed edge A the signed share of D that the
+//! triangle between c and the edge takes, and S the signed share that lies within the angle under
+//! which c sees the edge. Around closed loops Σ S is how often c itself is covered, the number of
+//! hard shadows; Σ A is the covered share of D, by Green's theorem. So
 //!
 //! ```text
 //! covered = hard + Σ (A − S)
 //! ```
 //!
-//! and a term differs from 0 only where the edge runs across D: what lies outside of D has A = S. Terms may be added in
-//! any order, for loops of any shape. Where c lies next to an edge S jumps by a half each way, as `hard` jumps by 1:
-//! whoever counts `hard` has to ask [`double::is_left`] on which side c is, of the same numbers, or pixels flicker.
+//! and a term differs from 0 only where the edge runs across D: what lies outside of D has A = S.
+//! Terms may be added in any order, for loops of any shape. Where c lies next to an edge S jumps by
+//! a half each way, as `hard` jumps by 1: whoever counts `hard` has to ask [`double::is_left`] on
+//! which side c is, of the same numbers, or pixels flicker.
 //!
-//! Sources: Assarsson and Akenine-Möller, "A Geometry-based Soft Shadow Volume Algorithm using Graphics Hardware",
-//! 2003; SG "A Soft Shadow Volume Algorithm"; PX 4.1.5 and 4.2. That sum over all edges is not in them.
+//! Sources: Assarsson and Akenine-Möller, "A Geometry-based Soft Shadow Volume Algorithm using
+//! Graphics Hardware", 2003; SG "A Soft Shadow Volume Algorithm"; PX 4.1.5 and 4.2. That sum over
+//! all edges is not in them.
 
 mod cell;
 mod sphere_table;
@@ -38,8 +41,8 @@ macro_rules! coverage {
     ($name:ident, $float:ident, $doc:literal) => {
         #[doc = $doc]
         ///
-        /// Points are homogeneous, `[x, y, w]`: seen at (x / w, y / w) where `w` > 0, behind the observer where `w` < 0, in
-        /// the light's plane where `w` = 1 and beyond it where `w` > 1.
+        /// Points are homogeneous, `[x, y, w]`: seen at (x / w, y / w) where `w` > 0, behind the
+        /// observer where `w` < 0, in the light's plane where `w` = 1 and beyond it where `w` > 1.
         pub mod $name {
             use super::Face;
             use std::$float::consts::PI;
@@ -55,12 +58,14 @@ macro_rules! coverage {
                 pub is_left: bool,
             }
 
-            /// True where the centre of the face is on the left of an edge, seen with x to the right and y up.
+            /// True where the centre of the face is on the left of an edge, seen with x to the
+            /// right and y up.
             pub fn is_left(from: [$float; 3], to: [$float; 3]) -> bool {
                 from[0] * to[1] - from[1] * to[0] >= 0.0
             }
 
-            /// A − S of an edge, see the module: what it adds to the covered share apart from what `hard` has of it.
+            /// A − S of an edge, see the module: what it adds to the covered share apart from what
+            /// `hard` has of it.
             pub fn term(face: Face, from: [$float; 3], to: [$float; 3]) -> $float {
                 chord(face, from, to).map_or(0.0, |chord| match face {
                     Face::Disc => chord.on_disc(),
@@ -68,7 +73,8 @@ macro_rules! coverage {
                 })
             }
 
-            /// The part of an edge that runs across the face, before the light and not behind the observer.
+            /// The part of an edge that runs across the face, before the light and not behind the
+            /// observer.
             pub fn chord(face: Face, from: [$float; 3], to: [$float; 3]) -> Option<Chord> {
                 let is_left = is_left(from, to);
                 let (from, to) = before_light(from, to)?;
@@ -102,15 +108,16 @@ macro_rules! coverage {
                     (a * d - b * c, a * c + b * d)
                 }
 
-                /// An angle that is near half a turn has the sign of the side that the centre is on.
+                /// An angle that is near half a turn has the sign of the side that the centre is
+                /// on.
                 fn signed(&self, angle: $float, quarter: $float) -> $float {
                     let sign = if self.is_left { 1.0 } else { -1.0 };
                     if angle.abs() > quarter { sign * angle.abs() } else { angle }
                 }
             }
 
-            /// Where the ray from the centre through a point leaves the square, as a share 0…1 of the way around it. Sectors have
-            /// areas in proportion.
+            /// Where the ray from the centre through a point leaves the square, as a share 0…1 of
+            /// the way around it. Sectors have areas in proportion.
             pub fn around_square([x, y]: [$float; 2]) -> $float {
                 let longest = x.abs().max(y.abs());
                 if longest == 0.0 {
@@ -129,7 +136,8 @@ macro_rules! coverage {
                 way / 8.0
             }
 
-            /// The part that is nearer than the light's plane. What is cut off outside of the face had A = S.
+            /// The part that is nearer than the light's plane. What is cut off outside of the face
+            /// had A = S.
             fn before_light(from: [$float; 3], to: [$float; 3]) -> Option<([$float; 3], [$float; 3])> {
                 let cut = || mix(from, to, (1.0 - from[2]) / (to[2] - from[2]));
                 match (from[2] <= 1.0, to[2] <= 1.0) {
@@ -145,7 +153,8 @@ macro_rules! coverage {
             }
 
             fn across_disc(from: [$float; 3], to: [$float; 3]) -> Option<[[$float; 2]; 2]> {
-                // The plane through observer and edge is the edge's line on the face: n.x x + n.y y + n.z = 0.
+                // The plane through observer and edge is the edge's line on the face: n.x x + n.y
+                // y + n.z = 0.
                 let n = [
                     from[1] * to[2] - from[2] * to[1],
                     from[2] * to[0] - from[0] * to[2],

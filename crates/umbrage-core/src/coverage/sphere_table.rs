@@ -1,10 +1,12 @@
 //! Coverage of a disc as two tables over three distances.
 
-/// For an edge's line at distance d0 from the disc's centre and its ends at d1 and d2 from the foot of the perpendicular, all in radii:
-/// the share of the disc beyond the edge within the angle under which the centre sees it, S − A of [`super`] without its
-/// sign. One table for ends on the same side of the foot and one for ends on either side (PX 4.2.2). Ends outside of the disc may be
-/// anywhere there; look-ups at 1 are the most exact, since what is between values has a bend at the border.
-/// Next to the centre, where an end within a cell of it may be seen under any angle, values may be off by as much as a quarter.
+/// For an edge's line at distance d0 from the disc's centre and its ends at d1 and d2 from the foot
+/// of the perpendicular, all in radii: the share of the disc beyond the edge within the angle under
+/// which the centre sees it, S − A of [`super`] without its sign. One table for ends on the same
+/// side of the foot and one for ends on either side (PX 4.2.2). Ends outside of the disc may be
+/// anywhere there; look-ups at 1 are the most exact, since what is between values has a bend at the
+/// border. Next to the centre, where an end within a cell of it may be seen under any angle, values
+/// may be off by as much as a quarter.
 #[derive(Clone, Debug)]
 pub struct SphereTable {
     side: usize,
@@ -56,7 +58,8 @@ impl SphereTable {
     }
 }
 
-/// The share of the disc beyond the edge for an edge from the foot of the perpendicular outwards to `end`.
+/// The share of the disc beyond the edge for an edge from the foot of the perpendicular outwards to
+/// `end`.
 fn wedge(distance: f64, end: f64) -> f64 {
     let end = end.min((1.0 - distance * distance).max(0.0).sqrt());
     (end.atan2(distance) - distance * end) / std::f64::consts::TAU

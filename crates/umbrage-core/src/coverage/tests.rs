@@ -46,7 +46,8 @@ fn mix<const N: usize>(a: [f64; N], b: [f64; N], t: f64) -> [f64; N] {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t)
 }
 
-/// The area that a loop winds around within the face, as a share of the face: a fan of triangles, each clipped.
+/// The area that a loop winds around within the face, as a share of the face: a fan of triangles,
+/// each clipped.
 fn share_by_clipping(face: Face, polygon: &[Flat]) -> f64 {
     share_within(&outline(face), polygon) / if face == Face::Disc { PI } else { 4.0 }
 }
@@ -162,7 +163,8 @@ proptest! {
 #[test]
 fn half_of_the_face_is_half_covered() {
     for face in FACES {
-        // The left half plane, its border through the centre, which is on the left of it and so covered.
+        // The left half plane, its border through the centre, which is on the left of it and so
+        // covered.
         let border = term(face, [0.0, -5.0, 0.5], [0.0, 5.0, 0.5]);
         assert!(is_left([0.0, -5.0, 0.5], [0.0, 5.0, 0.5]));
         assert!((1.0 + border - 0.5).abs() < 1e-12, "{face:?} {border}");
@@ -228,7 +230,8 @@ fn a_textured_square_counts_where_its_weight_is() {
     assert!(TexturedTable::new(|_, _| 0.0, 8).is_none());
 }
 
-/// A dot in the corner where the way around the square starts: chords that cut it off pass over the start.
+/// A dot in the corner where the way around the square starts: chords that cut it off pass over the
+/// start.
 #[test]
 fn a_sector_over_the_start_of_the_way_around_has_its_light() {
     let dot = |low: Flat, _: Flat| if low[0] > 0.9 && low[1] < -0.9 { 1.0 } else { 0.0 };

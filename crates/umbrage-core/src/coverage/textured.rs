@@ -2,8 +2,8 @@
 
 use super::double::{Chord, around_square};
 
-/// The share A of a weighted square, see [`super`], as a table over both ends of the chord (SG "Precomputed 4D textures"), and the share
-/// S as one over the way around the square.
+/// The share A of a weighted square, see [`super`], as a table over both ends of the chord (SG
+/// "Precomputed 4D textures"), and the share S as one over the way around the square.
 #[derive(Clone, Debug)]
 pub struct TexturedTable {
     side: usize,
@@ -21,9 +21,9 @@ const ALONG: usize = 48;
 const AROUND: usize = 512;
 
 impl TexturedTable {
-    /// `share`: of all light, of any scale, that comes from the rectangle between two corners of the square, coordinates −1…1;
-    /// not negative. `side`: values along each of four axes, at least 2; 16 make 64 Ki values, 32 make 1 Mi. `None` where
-    /// nothing gives light.
+    /// `share`: of all light, of any scale, that comes from the rectangle between two corners of
+    /// the square, coordinates −1…1; not negative. `side`: values along each of four axes, at least
+    /// 2; 16 make 64 Ki values, 32 make 1 Mi. `None` where nothing gives light.
     pub fn new(share: impl Fn([f64; 2], [f64; 2]) -> f64, side: usize) -> Option<Self> {
         let side = side.max(2);
         let rows = Rows::new(share)?;
@@ -63,8 +63,8 @@ impl TexturedTable {
         &self.triangles
     }
 
-    /// The share within the angle that starts at the corner (1, −1), counter-clockwise, see [`around_square`]; evenly spaced from 0
-    /// to 1, both included.
+    /// The share within the angle that starts at the corner (1, −1), counter-clockwise, see
+    /// [`around_square`]; evenly spaced from 0 to 1, both included.
     pub fn sectors(&self) -> &[f32] {
         &self.sectors
     }
@@ -116,8 +116,8 @@ fn on_border(around: f64) -> [f64; 2] {
     }
 }
 
-/// For each row of the square the share of the whole that lies left of a place: what turns the area of a region into an
-/// integral along its border.
+/// For each row of the square the share of the whole that lies left of a place: what turns the area
+/// of a region into an integral along its border.
 struct Rows {
     left: Vec<f64>,
 }

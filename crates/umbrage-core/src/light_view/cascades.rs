@@ -1,6 +1,7 @@
 //! Views of one light for parts of what a camera sees, each with a map of its own.
 //!
-//! Sources: Zhang et al. 2006; FE 3; Valient, "Stable Rendering of Cascaded Shadow Maps", ShaderX6 (steady views).
+//! Sources: Zhang et al. 2006; FE 3; Valient, "Stable Rendering of Cascaded Shadow Maps", ShaderX6
+//! (steady views).
 
 use super::rect::Steps;
 use super::{Fit, FitScene, LightView, Omni, fit as fit_light, parallel, perspective};
@@ -26,12 +27,13 @@ pub struct Cascades {
 /// What the map of a part covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cover {
-    /// What the part holds of the receivers: scene-dependent, tight, and another one in every frame.
+    /// What the part holds of the receivers: scene-dependent, tight, and another one in every
+    /// frame.
     Receivers,
     /// The part itself: scene-independent.
     Part,
-    /// A sphere around the split, or with a spot a square, on a grid of texels that does not move with the camera. Maps move in steps
-    /// of so many texels.
+    /// A sphere around the split, or with a spot a square, on a grid of texels that does not move
+    /// with the camera. Maps move in steps of so many texels.
     Steady {
         /// Texels a step, at least 1: over so much the camera moves before a view changes at all.
         step_texels: f64,
@@ -44,12 +46,13 @@ const RANGE_STEP: f64 = 1.189_207_115_002_721;
 /// Least distance of the first border over the last one that steady views go by.
 const NEAREST: f64 = 1e-3;
 
-/// Fits a view of `light` to each part of what `camera` sees, as the layer of its number, replacing what is in `views`, and
-/// writes the borders between parts to `borders`: one more than there are parts, metres along the view. Parts that hold no
-/// receiver have no view.
+/// Fits a view of `light` to each part of what `camera` sees, as the layer of its number, replacing
+/// what is in `views`, and writes the borders between parts to `borders`: one more than there are
+/// parts, metres along the view. Parts that hold no receiver have no view.
 ///
-/// Lights that shine to all sides, or to more than one view can hold, have no parts: they get what [`fit`](super::fit) gives them,
-/// and what that returns; `borders` is empty then. What is seen more than 60 degrees off a spot's axis is not covered.
+/// Lights that shine to all sides, or to more than one view can hold, have no parts: they get what
+/// [`fit`](super::fit) gives them, and what that returns; `borders` is empty then. What is seen
+/// more than 60 degrees off a spot's axis is not covered.
 pub fn fit_cascades(
     light: &LightShape,
     camera: &CameraView,
@@ -88,7 +91,8 @@ pub fn fit_cascades(
     None
 }
 
-/// A distance from the eye that nothing is beyond: the same for most places of the camera near each other.
+/// A distance from the eye that nothing is beyond: the same for most places of the camera near each
+/// other.
 fn reach(camera: &CameraView, scene: &FitScene) -> f64 {
     let farthest = scene.around.corners().map(|c| c.distance(camera.eye)).into_iter().fold(0.0, f64::max);
     RANGE_STEP.powf(farthest.max(f64::MIN_POSITIVE).log(RANGE_STEP).ceil())
@@ -177,17 +181,20 @@ fn between(forward: DVec3, eye: DVec3, [from, to]: [f64; 2]) -> Frustum {
     Frustum::bounded_by(vec![plane(forward, -from), plane(-forward, to)])
 }
 
-/// Middle and radius of a sphere around what the camera may see between two distances along the view and no farther than `reach` from the
-/// eye. The radius depends on the projection and the distances alone, not on where the camera looks, to the last bit.
+/// Middle and radius of a sphere around what the camera may see between two distances along the
+/// view and no farther than `reach` from the eye. The radius depends on the projection and the
+/// distances alone, not on where the camera looks, to the last bit.
 fn ball(camera: &CameraView, ends: [f64; 2], reach: f64) -> (DVec3, f64) {
     let part = Frustum::of(&camera.clip_from_view).and(&between(DVec3::NEG_Z, DVec3::ZERO, ends));
-    // The farthest corner at either end, as its distances along and from the axis; beyond the reach where its ray, or the end, leaves that.
+    // The farthest corner at either end, as its distances along and from the axis; beyond the reach
+    // where its ray, or the end, leaves that.
     let [near, far] = ends.map(|d| {
         let at_end = part.corners().iter().filter(|c| (c.z + d).abs() <= 1e-6 * (1.0 + d.abs()));
         let aside = at_end.map(|c| c.truncate().length_squared()).fold(0.0, f64::max).sqrt();
         DVec2::new(d, aside)
     });
-    // Of a sphere's cap that the view sees what is at its rim is farthest from any place on the axis.
+    // Of a sphere's cap that the view sees what is at its rim is farthest from any place on the
+    // axis.
     let far = within(reach, near, far);
     let along = far.x - near.x;
     let middle = if along > 0.0 { (far.length_squared() - near.length_squared()) / (2.0 * along) } else { far.x };

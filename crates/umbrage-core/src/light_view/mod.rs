@@ -1,9 +1,10 @@
 //! Light-space fits: the views that a map technique renders.
 //!
-//! One perspective view for a spot, one orthographic view for a directional light, and several for lights that shine to
-//! all sides, see [`Omni`]. With [`Focus::Visible`] each view is cropped to what the camera can see of the receivers
-//! (Brabec, Annen and Seidel, "Practical Shadow Mapping"; SG "Extensions"), so that no texel is spent elsewhere; its
-//! near side always reaches back to every caster.
+//! One perspective view for a spot, one orthographic view for a directional light, and several for
+//! lights that shine to all sides, see [`Omni`]. With [`Focus::Visible`] each view is cropped to
+//! what the camera can see of the receivers (Brabec, Annen and Seidel, "Practical Shadow Mapping";
+//! SG "Extensions"), so that no texel is spent elsewhere; its near side always reaches back to
+//! every caster.
 
 mod cascades;
 mod on_screen;
@@ -23,10 +24,10 @@ pub use warp::{CUBE_SIDES, Warp, fit_warped};
 /// One view of a light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightView {
-    /// World to the light's clip space; reversed depth: perspective views store near / distance along the axis,
-    /// orthographic ones fall linearly from 1 at the nearest caster to 0 at the farthest receiver; warped ones of parallel light
-    /// (see [`Warp`]) do so along each ray. For a paraboloid
-    /// the perspective view along its axis that [`LightView::paraboloid`] bends.
+    /// World to the light's clip space; reversed depth: perspective views store near / distance
+    /// along the axis, orthographic ones fall linearly from 1 at the nearest caster to 0 at the
+    /// farthest receiver; warped ones of parallel light (see [`Warp`]) do so along each ray. For a
+    /// paraboloid the perspective view along its axis that [`LightView::paraboloid`] bends.
     pub clip_from_world: DMat4,
     /// Texels across and down.
     pub size: u32,
@@ -34,8 +35,9 @@ pub struct LightView {
     pub layer: u32,
     /// `None` where the matrix is all there is.
     pub paraboloid: Option<Paraboloid>,
-    /// Of a part of what the camera sees that stands still: texels along the map's borders that are for filters alone. Inside of them it
-    /// counts in place of the next part's map, wherever the parts end. `None` for all other views.
+    /// Of a part of what the camera sees that stands still: texels along the map's borders that are
+    /// for filters alone. Inside of them it counts in place of the next part's map, wherever the
+    /// parts end. `None` for all other views.
     pub steady_border: Option<f64>,
 }
 
@@ -63,17 +65,20 @@ pub enum Focus {
     Light,
 }
 
-/// The views of a light that shines to all sides, and which layer of the map each direction belongs to.
+/// The views of a light that shines to all sides, and which layer of the map each direction belongs
+/// to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Omni {
     /// Six faces: +X, −X, +Y, −Y, +Z, −Z. A direction belongs to its largest component.
     #[default]
     Cube,
-    /// Four faces of a tetrahedron that stands on its tip: straight down, and three that look up a little. A direction
-    /// belongs to the axis it is nearest to. Half of each map is outside of the face's triangle.
+    /// Four faces of a tetrahedron that stands on its tip: straight down, and three that look up a
+    /// little. A direction belongs to the axis it is nearest to. Half of each map is outside of the
+    /// face's triangle.
     Tetrahedral,
-    /// Two paraboloids, down and up (Brabec, Annen and Seidel, "Shadow Mapping for Hemispherical and
-    /// Omnidirectional Light Sources", 2002). Floors and ceilings, the largest flat things, are whole in one of them.
+    /// Two paraboloids, down and up (Brabec, Annen and Seidel, "Shadow Mapping for Hemispherical
+    /// and Omnidirectional Light Sources", 2002). Floors and ceilings, the largest flat things, are
+    /// whole in one of them.
     DualParaboloid,
 }
 
@@ -125,12 +130,12 @@ impl FitScene {
     }
 }
 
-/// Near plane of perspective views over the distance of the farthest point. Reversed float depth loses nothing by a
-/// small one.
+/// Near plane of perspective views over the distance of the farthest point. Reversed float depth
+/// loses nothing by a small one.
 const NEAR: f64 = 1e-5;
 
-/// Stored depth of perspective views somewhat beyond the farthest point of the scene: where a depth that falls
-/// linearly with distance reaches 0.
+/// Stored depth of perspective views somewhat beyond the farthest point of the scene: where a depth
+/// that falls linearly with distance reaches 0.
 pub const FARTHEST: f64 = NEAR / 1.01;
 
 impl LightView {
@@ -144,7 +149,8 @@ impl LightView {
         self.clip_from_world.row(3).truncate() != DVec3::ZERO && !self.is_warped()
     }
 
-    /// True for views of parallel light whose texels are not all of one size: w changes from ray to ray, depth along each of them.
+    /// True for views of parallel light whose texels are not all of one size: w changes from ray to
+    /// ray, depth along each of them.
     pub fn is_warped(&self) -> bool {
         [2, 3].iter().all(|row| self.clip_from_world.row(*row).truncate() != DVec3::ZERO)
     }
@@ -198,8 +204,9 @@ impl LightView {
     }
 }
 
-/// Fits the views of `light` to what is seen in `seen`, the camera's volume, replacing what is in `views`. None are left
-/// where nothing that is seen can be in shadow. Returns [`Fit::omni`] where there are views and their layers are those of it, `None` for a single view.
+/// Fits the views of `light` to what is seen in `seen`, the camera's volume, replacing what is in
+/// `views`. None are left where nothing that is seen can be in shadow. Returns [`Fit::omni`] where
+/// there are views and their layers are those of it, `None` for a single view.
 pub fn fit(
     light: &LightShape,
     seen: &Frustum,
@@ -237,7 +244,8 @@ fn near(position: DVec3, scene: &FitScene) -> f64 {
     (NEAR * reach).max(f64::MIN_POSITIVE)
 }
 
-/// The place in the plane at distance 1 ahead of what `clip`, a perspective view without crop, shows there.
+/// The place in the plane at distance 1 ahead of what `clip`, a perspective view without crop,
+/// shows there.
 fn divided(clip: glam::DVec4) -> DVec2 {
     clip.truncate().truncate() / clip.w
 }

@@ -6,8 +6,9 @@ use glam::{DMat4, DVec2, DVec3};
 
 /// The view that counts at `point`; `None` where none covers it.
 ///
-/// `splits` are distances along the camera's view, ascending, at which the view of one layer ends and that of the next begins, unless that has a
-/// [`LightView::steady_border`] and the point is inside of it; without any the first view that covers the point counts.
+/// `splits` are distances along the camera's view, ascending, at which the view of one layer ends
+/// and that of the next begins, unless that has a [`LightView::steady_border`] and the point is
+/// inside of it; without any the first view that covers the point counts.
 pub fn view_at<'a>(views: &'a [LightView], splits: &[f64], camera: &CameraView, point: DVec3) -> Option<&'a LightView> {
     let distance = -camera.view_from_world.transform_point3(point).z;
     let layer = splits.iter().filter(|split| distance >= **split).count() as u32;
@@ -21,8 +22,9 @@ pub fn view_at<'a>(views: &'a [LightView], splits: &[f64], camera: &CameraView, 
     finer.or_else(|| views.iter().find(|v| is_used(v) && is_within(v, 0.0)))
 }
 
-/// How far, in pixels, one texel of the map that covers `point` reaches on the screen along the surface there with
-/// `normal`: the largest singular value of ∂pixel/∂texel. `None` where no view covers the point.
+/// How far, in pixels, one texel of the map that covers `point` reaches on the screen along the
+/// surface there with `normal`: the largest singular value of ∂pixel/∂texel. `None` where no view
+/// covers the point.
 ///
 /// The view is that of [`view_at`].
 pub fn texel_on_screen(

@@ -1,8 +1,9 @@
-//! Paraboloid views: half of all directions on a disc (Brabec, Annen and Seidel, "Shadow Mapping for Hemispherical and
-//! Omnidirectional Light Sources", 2002).
+//! Paraboloid views: half of all directions on a disc (Brabec, Annen and Seidel, "Shadow Mapping
+//! for Hemispherical and Omnidirectional Light Sources", 2002).
 //!
-//! A way d from the light, z ahead, stands at d.xy / (|d| + d.z): the stereographic projection from the opposite of
-//! the axis. Planes through the light, and with them the edges of boxes, become circles.
+//! A way d from the light, z ahead, stands at d.xy / (|d| + d.z): the stereographic projection from
+//! the opposite of the axis. Planes through the light, and with them the edges of boxes, become
+//! circles.
 
 use super::perspective::Perspective;
 use super::rect::{Crop, Rect};
@@ -13,7 +14,8 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 /// What of the plane of a paraboloid the map shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paraboloid {
-    /// Normalised device coordinates per unit of the plane; the disc of the hemisphere has radius 1.
+    /// Normalised device coordinates per unit of the plane; the disc of the hemisphere has
+    /// radius 1.
     pub scale: DVec2,
     /// Where the axis is, in normalised device coordinates.
     pub axis: DVec2,
@@ -26,7 +28,8 @@ const SIDES: u32 = 8;
 const WIDEST: f64 = 1.5;
 
 impl Paraboloid {
-    /// Of the clip coordinates of the perspective view along the axis; the depth is near / distance.
+    /// Of the clip coordinates of the perspective view along the axis; the depth is near /
+    /// distance.
     pub(super) fn project(&self, clip: DVec4) -> Option<DVec3> {
         let way = DVec3::new(clip.x, clip.y, clip.w);
         let distance = way.length();
@@ -94,7 +97,8 @@ pub(super) fn views(
     }
 }
 
-/// What the camera sees of the receivers in the hemisphere around `forward`, as a rectangle of the plane.
+/// What the camera sees of the receivers in the hemisphere around `forward`, as a rectangle of the
+/// plane.
 fn visible(
     position: DVec3,
     forward: DVec3,
@@ -130,8 +134,8 @@ fn plane_from(way: DVec3) -> DVec2 {
     way.truncate() / (way.length() + way.z)
 }
 
-/// Appends points of the plane that have as many to all four sides of them as what lies between the unit ways: these
-/// themselves, and where an arc between two of them bulges farthest.
+/// Appends points of the plane that have as many to all four sides of them as what lies between the
+/// unit ways: these themselves, and where an arc between two of them bulges farthest.
 fn outline(ways: &[DVec3], plane: &mut Vec<DVec2>) {
     for (i, &a) in ways.iter().enumerate() {
         plane.push(plane_from(a));
@@ -141,7 +145,8 @@ fn outline(ways: &[DVec3], plane: &mut Vec<DVec2>) {
     }
 }
 
-/// The great circle through both with the unit normal m is the circle around m.xy / m.z with radius 1 / |m.z|.
+/// The great circle through both with the unit normal m is the circle around m.xy / m.z with radius
+/// 1 / |m.z|.
 fn bulges(a: DVec3, b: DVec3, plane: &mut Vec<DVec2>) {
     let Some(normal) = a.cross(b).try_normalize() else { return };
     let (middle, radius) = (normal.truncate() / normal.z, 1.0 / normal.z.abs());

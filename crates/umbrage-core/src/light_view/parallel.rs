@@ -23,8 +23,9 @@ pub(super) fn view(direction: DVec3, seen: &Frustum, scene: &FitScene, fit: &Fit
     Some(LightView::of(crop.matrix() * light_from_world([right, up, direction], [first, last]), fit.size, 0))
 }
 
-/// The view of a light at infinity that stands still: its texels lie on a grid that depends on their size alone, and its
-/// heights are those of everything. `center` and `radius` are of what it has to show.
+/// The view of a light at infinity that stands still: its texels lie on a grid that depends on
+/// their size alone, and its heights are those of everything. `center` and `radius` are of what it
+/// has to show.
 pub(super) fn steady(
     direction: DVec3,
     (center, radius): (DVec3, f64),
@@ -40,8 +41,8 @@ pub(super) fn steady(
     LightView::of(Crop::whole(rect).matrix() * light_from_world([right, up, direction], ends), fit.size, 0)
 }
 
-/// World to a space whose depth falls from 1 at the first of two heights along the light to 0 at the last, and a little more to
-/// both sides.
+/// World to a space whose depth falls from 1 at the first of two heights along the light to 0 at
+/// the last, and a little more to both sides.
 fn light_from_world([right, up, direction]: [DVec3; 3], [first, last]: [f64; 2]) -> DMat4 {
     let margin = ((last - first) * 1e-4).max(1e-9 * (1.0 + first.abs().max(last.abs())));
     let (first, last) = (first - margin, last + margin);
@@ -70,8 +71,8 @@ fn ends(u: DVec2, points: &[DVec2]) -> [Option<DVec2>; 2] {
     ends.map(|(end, _)| end)
 }
 
-/// Two axes across `direction` that give the points a small rectangle. A focus on the light keeps fixed axes, so that
-/// the map does not turn with the camera.
+/// Two axes across `direction` that give the points a small rectangle. A focus on the light keeps
+/// fixed axes, so that the map does not turn with the camera.
 fn tightest_axes(direction: DVec3, points: &[DVec3], focus: Focus) -> (DVec3, DVec3) {
     let a = direction.any_orthonormal_vector();
     let b = a.cross(direction);

@@ -5,8 +5,8 @@ use super::{Fit, FitScene, Focus, LightView, Omni, divided};
 use crate::{bounds::Bounds, frustum::Frustum};
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
-/// Widest half angle of a single perspective view, as a tangent: 60 degrees. A spot that has to cover more gets
-/// several views.
+/// Widest half angle of a single perspective view, as a tangent: 60 degrees. A spot that has to
+/// cover more gets several views.
 pub(super) const WIDEST: f64 = 1.732;
 
 /// Forward and up of the faces of a cube, in the order of the layers.
@@ -24,7 +24,8 @@ const ACROSS: f64 = 2.0 * std::f64::consts::SQRT_2 / 3.0;
 /// Sine of 60 degrees.
 const SIN_60: f64 = 0.866_025_403_784_438_6;
 
-/// Forward and up of the faces of a tetrahedron. Up leads to a corner of the face, which is opposite to another axis.
+/// Forward and up of the faces of a tetrahedron. Up leads to a corner of the face, which is
+/// opposite to another axis.
 const TETRAHEDRON: [(DVec3, DVec3); 4] = [
     (DVec3::NEG_Y, DVec3::NEG_X),
     (DVec3::new(ACROSS, 1.0 / 3.0, 0.0), DVec3::Y),
@@ -42,8 +43,8 @@ pub(super) fn faces(omni: Omni) -> impl Iterator<Item = (DVec3, DVec3)> {
     faces.iter().copied()
 }
 
-/// What a whole face covers: a square of 90 degrees, or the box around an equilateral triangle whose corners are
-/// 70.5 degrees from the axis, one of them up.
+/// What a whole face covers: a square of 90 degrees, or the box around an equilateral triangle
+/// whose corners are 70.5 degrees from the axis, one of them up.
 fn whole(omni: Omni) -> Rect {
     match omni {
         Omni::Tetrahedral => {
@@ -105,7 +106,8 @@ impl Perspective {
         DMat4::from_cols(row(right), row(up), DVec4::new(0.0, 0.0, 0.0, self.near), row(self.forward)).transpose()
     }
 
-    /// What the camera sees of the receivers within the widest view that there is; `None` where that is nothing.
+    /// What the camera sees of the receivers within the widest view that there is; `None` where
+    /// that is nothing.
     fn cropped(&self, seen: &Frustum, scene: &FitScene, fit: &Fit) -> Option<LightView> {
         let tangents = DMat4::from_scale(DVec3::new(1.0 / WIDEST, 1.0 / WIDEST, 1.0));
         let opening = Frustum::of(&(tangents * self.clip_from_world()));
@@ -128,7 +130,8 @@ impl Perspective {
     }
 }
 
-/// The view of a spot that no cone wider than a single view asks for: what is seen outside of that is not covered.
+/// The view of a spot that no cone wider than a single view asks for: what is seen outside of that
+/// is not covered.
 pub(super) fn within_widest(
     position: DVec3,
     direction: DVec3,
@@ -179,7 +182,8 @@ pub(super) fn spot(
     Some(LightView::of(Crop::to(rect, fit).matrix() * view.clip_from_world(), fit.size, 0))
 }
 
-/// The same view on a grid of texels that depends on their size alone, which is one of a few: a square that holds what `view` shows.
+/// The same view on a grid of texels that depends on their size alone, which is one of a few: a
+/// square that holds what `view` shows.
 pub(super) fn steady(view: &LightView, steps: &Steps, fit: &Fit) -> LightView {
     // The view from the same place without a crop is what texels are counted in.
     let clip = view.clip_from_world;

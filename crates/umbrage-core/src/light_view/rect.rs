@@ -42,7 +42,8 @@ impl Crop {
         let size = f64::from(fit.size.max(1));
         let border = fit.border_texels.clamp(0.0, size * 0.25);
         let center = (rect.min + rect.max) * 0.5;
-        // A receiver seen edge-on still needs a width; half a percent of the other side keeps texels sane.
+        // A receiver seen edge-on still needs a width; half a percent of the other side keeps
+        // texels sane.
         let half = (rect.max - rect.min) * 0.5;
         let half = half.max(DVec2::splat((half.max_element() * 0.005).max(1e-9))) * (size / (size - 2.0 * border));
         let scale = half.recip();
@@ -71,10 +72,12 @@ impl Crop {
     }
 }
 
-/// How views that stand still move on: in steps, so that every texel stays what it was or leaves the map.
+/// How views that stand still move on: in steps, so that every texel stays what it was or leaves
+/// the map.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Steps {
-    /// Texels that the map moves at a time, at least 1; as many are kept free around what it has to show.
+    /// Texels that the map moves at a time, at least 1; as many are kept free around what it has to
+    /// show.
     pub texels: f64,
 }
 

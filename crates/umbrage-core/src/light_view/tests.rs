@@ -95,7 +95,8 @@ fn nothing_to_see_needs_no_view() {
 
 #[test]
 fn a_texel_seen_from_the_light_itself_is_a_pixel() {
-    // The camera is an orthographic light's twin: looking straight down, map and screen of the same scale.
+    // The camera is an orthographic light's twin: looking straight down, map and screen of the same
+    // scale.
     let light = LightShape::Directional { direction: DVec3::NEG_Y, angle_deg: 0.0 };
     let (views, _) = fit_of(&light, Focus::Light, Omni::Cube, 0.0);
     let camera = CameraView {

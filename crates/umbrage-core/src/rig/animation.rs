@@ -23,8 +23,8 @@ pub struct Channel {
     pub interpolation: Interpolation,
     /// Seconds, ascending.
     pub times_s: Vec<f32>,
-    /// One a key: x, y, z, or a quaternion x, y, z, w. For [`Interpolation::Cubic`] three a key: the tangent that arrives, the value,
-    /// the tangent that leaves, tangents per second.
+    /// One a key: x, y, z, or a quaternion x, y, z, w. For [`Interpolation::Cubic`] three a key:
+    /// the tangent that arrives, the value, the tangent that leaves, tangents per second.
     pub values: Vec<Vec4>,
 }
 
@@ -56,8 +56,8 @@ impl Animation {
         self.channels.iter().filter_map(|c| c.times_s.last()).fold(0.0, |d, t| d.max(f64::from(*t)))
     }
 
-    /// A time brought into the animation: from 0 to its end it stays as it is; beyond both ends the animation starts over again and
-    /// again. What is no number is 0.
+    /// A time brought into the animation: from 0 to its end it stays as it is; beyond both ends the
+    /// animation starts over again and again. What is no number is 0.
     pub fn within(&self, time_s: f64) -> f64 {
         let duration = self.duration_s();
         if (0.0..=duration).contains(&time_s) {
@@ -67,8 +67,8 @@ impl Animation {
         if wrapped.is_finite() { wrapped } else { 0.0 }
     }
 
-    /// Moves nodes to where they are at `time_s`. A channel holds its first value before its first key and its last one after its
-    /// last. Nodes placed by a matrix stay.
+    /// Moves nodes to where they are at `time_s`. A channel holds its first value before its first
+    /// key and its last one after its last. Nodes placed by a matrix stay.
     pub(super) fn pose(&self, time_s: f64, local: &mut [Local]) {
         let time_s = self.within(time_s);
         for channel in &self.channels {

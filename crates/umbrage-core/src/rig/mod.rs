@@ -1,5 +1,6 @@
-//! Rigs: what moves the vertices of a mesh. Nodes make a tree; a skin says which of them are joints of a mesh; an animation moves
-//! nodes. Meanings are those of glTF (Khronos, "glTF 2.0 specification", version 2.0.1, sections 3.7.3 and 3.11).
+//! Rigs: what moves the vertices of a mesh. Nodes make a tree; a skin says which of them are joints
+//! of a mesh; an animation moves nodes. Meanings are those of glTF (Khronos, "glTF 2.0
+//! specification", version 2.0.1, sections 3.7.3 and 3.11).
 
 mod animation;
 mod weights;
@@ -81,8 +82,8 @@ pub struct Moment {
 }
 
 impl Rig {
-    /// Where every node is at a moment: matrices from its space to that of the model. Without a moment, or with that of
-    /// an animation that is not there, the rig is at rest.
+    /// Where every node is at a moment: matrices from its space to that of the model. Without a
+    /// moment, or with that of an animation that is not there, the rig is at rest.
     pub fn nodes_at(&self, moment: Option<Moment>) -> Vec<DAffine3> {
         let mut local: Vec<Local> = self.nodes.iter().map(|n| n.local).collect();
         if let Some(moment) = moment
@@ -93,8 +94,8 @@ impl Rig {
         place(&self.nodes, local)
     }
 
-    /// What each joint of a skin does to a vertex of the mesh as it was bound, at a moment or at rest. Empty for a skin
-    /// that is not there.
+    /// What each joint of a skin does to a vertex of the mesh as it was bound, at a moment or at
+    /// rest. Empty for a skin that is not there.
     pub fn joints_at(&self, skin: usize, moment: Option<Moment>) -> Vec<DAffine3> {
         let nodes = self.nodes_at(moment);
         let joints = self.skins.get(skin).map_or(&[][..], |s| &s.joints);
@@ -103,8 +104,8 @@ impl Rig {
     }
 }
 
-/// Matrices that take a point from the space of each node to that of the model, the nodes standing to their parents as `local`
-/// says.
+/// Matrices that take a point from the space of each node to that of the model, the nodes standing
+/// to their parents as `local` says.
 pub fn place(nodes: &[Node], local: impl IntoIterator<Item = Local>) -> Vec<DAffine3> {
     let mut placed: Vec<DAffine3> = Vec::with_capacity(nodes.len());
     for (node, local) in nodes.iter().zip(local) {

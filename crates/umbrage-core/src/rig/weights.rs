@@ -22,8 +22,9 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// Adds the next vertex. Weights that are not over 0 are left out, those of one joint added up, all brought to a sum of 1 and put in
-    /// the order of joints, so that vertices held alike are the same. A vertex that no joint holds stays where it is.
+    /// Adds the next vertex. Weights that are not over 0 are left out, those of one joint added up,
+    /// all brought to a sum of 1 and put in the order of joints, so that vertices held alike are
+    /// the same. A vertex that no joint holds stays where it is.
     pub fn push(&mut self, influences: &[Influence]) {
         let counts = |i: &Influence| i.weight > 0.0 && i.weight.is_finite();
         let mut kept: Vec<Influence> = influences.iter().copied().filter(counts).collect();
@@ -95,7 +96,8 @@ impl Weights {
 }
 
 impl Mesh {
-    /// The mesh as its joints hold it: linear blend skinning. Triangles keep their order of corners.
+    /// The mesh as its joints hold it: linear blend skinning. Triangles keep their order of
+    /// corners.
     pub fn posed(&self, joints: &[DAffine3]) -> Mesh {
         let mut mesh = self.clone();
         for (vertex, position) in mesh.positions.iter_mut().enumerate() {
@@ -110,13 +112,15 @@ impl Mesh {
     }
 }
 
-/// The matrix for normals, up to a positive factor: the cofactors, which exist also where there is no inverse.
+/// The matrix for normals, up to a positive factor: the cofactors, which exist also where there is
+/// no inverse.
 fn normal_matrix(m: &DMat3) -> DMat3 {
     let [x, y, z] = [m.x_axis, m.y_axis, m.z_axis];
     DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * m.determinant().signum()
 }
 
-/// For every joint a box around the vertices that it has a part in: what a box around any pose is quickly made from.
+/// For every joint a box around the vertices that it has a part in: what a box around any pose is
+/// quickly made from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointBoxes {
     joints: Vec<Bounds>,
@@ -143,8 +147,8 @@ impl JointBoxes {
         boxes
     }
 
-    /// A box that surely holds the posed mesh, as it comes out in single precision. A vertex is a mean of where its joints would
-    /// take it, so it is within what holds all of these.
+    /// A box that surely holds the posed mesh, as it comes out in single precision. A vertex is a
+    /// mean of where its joints would take it, so it is within what holds all of these.
     pub fn posed(&self, joints: &[DAffine3]) -> Bounds {
         let of = |(number, bounds): (usize, &Bounds)| {
             bounds.transformed(&joints.get(number).copied().unwrap_or(DAffine3::IDENTITY))

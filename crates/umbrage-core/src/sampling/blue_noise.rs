@@ -8,17 +8,20 @@ const SIGMA: f64 = 1.5;
 /// How far from a pixel that Gaussian is summed, pixels. At the next one it has fallen to 7·10⁻⁷.
 const REACH: i32 = 7;
 
-/// A tile of blue noise, `size` × `size` pixels, row by row: each pixel's rank, a permutation of 0 to size² − 1.
+/// A tile of blue noise, `size` × `size` pixels, row by row: each pixel's rank, a permutation of 0
+/// to size² − 1.
 ///
-/// For any `n` the pixels of a rank below `n` are as far apart as `n` pixels can be, also across the borders of
-/// repeated tiles, so neighbours get very different ranks. Void and cluster: Ulichney, "The void-and-cluster method for
-/// dither array generation", 1993. The time goes by size⁴; 32 × 32 take milliseconds, 256 × 256 minutes.
+/// For any `n` the pixels of a rank below `n` are as far apart as `n` pixels can be, also across
+/// the borders of repeated tiles, so neighbours get very different ranks. Void and cluster:
+/// Ulichney, "The void-and-cluster method for dither array generation", 1993. The time goes by
+/// size⁴; 32 × 32 take milliseconds, 256 × 256 minutes.
 pub fn blue_noise(size: u32) -> Vec<u32> {
     let pixels = (size * size) as usize;
     let mut ranks = vec![0; pixels];
     let mut first = spread_evenly(size, pixels.div_ceil(10));
-    // The method's third phase, in which the unset pixels are the minority and the tightest cluster of them is set, is
-    // the second gone on: energies of set and unset pixels add up to the same sum everywhere.
+    // The method's third phase, in which the unset pixels are the minority and the tightest cluster
+    // of them is set, is the second gone on: energies of set and unset pixels add up to the same
+    // sum everywhere.
     let mut tile = first.clone();
     for rank in first.count..pixels {
         let void = tile.largest_void();
@@ -33,7 +36,8 @@ pub fn blue_noise(size: u32) -> Vec<u32> {
     ranks
 }
 
-/// `count` pixels of a tile, moved from where they are crowded to where there are none until that helps no more.
+/// `count` pixels of a tile, moved from where they are crowded to where there are none until that
+/// helps no more.
 fn spread_evenly(size: u32, count: usize) -> Tile {
     let mut tile = Tile::new(size);
     let mut by_chance: Vec<usize> = (0..tile.is_set.len()).collect();
@@ -59,7 +63,8 @@ struct Tile {
     size: i32,
     is_set: Vec<bool>,
     count: usize,
-    /// Sum of the Gaussians around all set pixels. Whole numbers, so that what is added can be taken off again.
+    /// Sum of the Gaussians around all set pixels. Whole numbers, so that what is added can be
+    /// taken off again.
     energy: Vec<u64>,
     /// Decides among pixels of the same energy.
     chance: Vec<u32>,
@@ -118,7 +123,8 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// Mean power of a tile's frequencies up to `highest` cycles along either axis, the mean left out.
+    /// Mean power of a tile's frequencies up to `highest` cycles along either axis, the mean left
+    /// out.
     fn low_power(tile: &[f64], size: usize, highest: i32) -> f64 {
         let frequencies = (-highest..=highest).flat_map(|u| (-highest..=highest).map(move |v| (u, v)));
         let powers: Vec<f64> = frequencies
@@ -150,7 +156,8 @@ mod tests {
     fn low_frequencies_are_far_below_those_of_white_noise() {
         let (size, pixels) = (32, 1024.0);
         let ranks = blue_noise(size as u32);
-        // The ranks themselves, against numbers of variance 1/12, whose power is pixels / 12 at every frequency.
+        // The ranks themselves, against numbers of variance 1/12, whose power is pixels / 12 at
+        // every frequency.
         let values: Vec<f64> = ranks.iter().map(|&rank| (f64::from(rank) + 0.5) / pixels - 0.5).collect();
         let share = low_power(&values, size, 4) / (pixels / 12.0);
         assert!(share < 0.02, "ranks: {share} of white noise");

@@ -7,13 +7,14 @@ use crate::material::Texture;
 use glam::{DMat3, DVec2, DVec3, DVec4};
 use std::f64::consts::{SQRT_2, TAU};
 
-/// About `n` hard lights of equal weight that together stand for the light `shape`, whoever looks at them: point lights,
-/// or directional ones for a sun. A light that is hard already stays as it is, alone; `n` = 0 counts as 1, and one
-/// light is the centre. `textures` are the scene's.
+/// About `n` hard lights of equal weight that together stand for the light `shape`, whoever looks
+/// at them: point lights, or directional ones for a sun. A light that is hard already stays as it
+/// is, alone; `n` = 0 counts as 1, and one light is the centre. `textures` are the scene's.
 ///
-/// Discs, rectangles, lines and suns get evenly spread points of themselves. The definition of visibility shows each
-/// receiver another disc of a sphere, so its points fill the ball such that they project along **every** direction to a
-/// uniform disc. That is exact for a receiver far off and wrong by the order of (radius / distance)² near by.
+/// Discs, rectangles, lines and suns get evenly spread points of themselves. The definition of
+/// visibility shows each receiver another disc of a sphere, so its points fill the ball such that
+/// they project along **every** direction to a uniform disc. That is exact for a receiver far off
+/// and wrong by the order of (radius / distance)² near by.
 pub fn hard_lights(shape: &LightShape, textures: &[Texture], n: usize) -> Vec<LightShape> {
     if !shape.kind().is_soft() {
         return vec![shape.clone()];
@@ -46,17 +47,18 @@ fn ball(n: usize, position: DVec3, world_from_unit: &DMat3) -> Vec<LightShape> {
     unit_ball(n).into_iter().map(|q| LightShape::Point { position: position + *world_from_unit * q }).collect()
 }
 
-/// Points of the unit ball of density ∝ 1/√(1 − r²). By Archimedes' theorem in four dimensions, the evenly covered unit
-/// 3-sphere projects to a uniform disc when two coordinates are dropped; dropping one gives these points, and
-/// projecting them along any direction drops the second. They come in pairs of opposite points, so that their mean is
-/// the centre, which itself makes an odd `n` full.
+/// Points of the unit ball of density ∝ 1/√(1 − r²). By Archimedes' theorem in four dimensions, the
+/// evenly covered unit 3-sphere projects to a uniform disc when two coordinates are dropped;
+/// dropping one gives these points, and projecting them along any direction drops the second. They
+/// come in pairs of opposite points, so that their mean is the centre, which itself makes an odd
+/// `n` full.
 fn unit_ball(n: usize) -> Vec<DVec3> {
     let half = unit_3_sphere(n / 2).map(|q| q.truncate());
     half.flat_map(|q| [q, -q]).chain((n % 2 == 1).then_some(DVec3::ZERO)).collect()
 }
 
-/// `n` evenly spread points of the unit sphere in four dimensions: Alexa, "Super-Fibonacci Spirals", CVPR 2022. They
-/// are made to be even together with their opposites.
+/// `n` evenly spread points of the unit sphere in four dimensions: Alexa, "Super-Fibonacci
+/// Spirals", CVPR 2022. They are made to be even together with their opposites.
 fn unit_3_sphere(n: usize) -> impl Iterator<Item = DVec4> {
     /// The positive root of ψ⁴ = ψ + 4.
     const PSI: f64 = 1.533_751_168_755_204_3;
@@ -99,7 +101,8 @@ mod tests {
         (d.acos() - d * (1.0 - d * d).sqrt()) / std::f64::consts::PI
     }
 
-    /// Over many directions and lines, the errors of the share of points beyond the line: root mean square, largest.
+    /// Over many directions and lines, the errors of the share of points beyond the line: root mean
+    /// square, largest.
     fn share_errors(points: &[DVec3], along: &[DVec3]) -> (f64, f64) {
         let (mut squares, mut worst): (f64, f64) = (0.0, 0.0);
         for axis in along {

@@ -38,8 +38,8 @@ enum Domain<'a> {
 }
 
 impl LightSampler {
-    /// For the light `shape`; `textures` are the scene's. A rectangle whose texture is black, absent or incomplete
-    /// is sampled evenly.
+    /// For the light `shape`; `textures` are the scene's. A rectangle whose texture is black,
+    /// absent or incomplete is sampled evenly.
     pub fn new(shape: &LightShape, textures: &[Texture]) -> Self {
         let luminance = match shape {
             LightShape::Rect { texture: Some(index), .. } => textures.get(*index).and_then(Luminance::of).map(Arc::new),
@@ -71,7 +71,8 @@ impl LightSampler {
             }
             LightShape::Rect { direction, up, size, .. } => {
                 let domain = self.luminance.as_deref().map_or(Domain::Square, Domain::Picture);
-                // To the right for somebody who looks at the emitting side; down, as the rows of a picture go.
+                // To the right for somebody who looks at the emitting side; down, as the rows of a
+                // picture go.
                 ([up.cross(direction) * (size.x * 0.5), up * (size.y * -0.5)], domain)
             }
             LightShape::Line { from, to } => ([(to - from) * 0.5, DVec3::ZERO], Domain::Square),
@@ -81,8 +82,9 @@ impl LightSampler {
 }
 
 impl LightFrom<'_> {
-    /// The same light with its samples turned about the middle by `angle` radians, where it is round: a disc, a sphere, a
-    /// sun. With an angle of its own for every receiver, errors along straight shadow edges do not form bands.
+    /// The same light with its samples turned about the middle by `angle` radians, where it is
+    /// round: a disc, a sphere, a sun. With an angle of its own for every receiver, errors along
+    /// straight shadow edges do not form bands.
     pub fn turned(self, angle: f64) -> Self {
         let [x, y] = self.axes;
         let (sin, cos) = angle.sin_cos();
@@ -92,9 +94,10 @@ impl LightFrom<'_> {
         }
     }
 
-    /// The point of the light that belongs to `u` in [0, 1]²: a point of world space with w = 1, or for a directional
-    /// light the unit direction **to** it with w = 0. Equal areas of the square go to equal shares of the light;
-    /// the middle of the square to the centre (a textured rectangle apart).
+    /// The point of the light that belongs to `u` in [0, 1]²: a point of world space with w = 1, or
+    /// for a directional light the unit direction **to** it with w = 0. Equal areas of the square
+    /// go to equal shares of the light; the middle of the square to the centre (a textured
+    /// rectangle apart).
     pub fn sample(&self, u: DVec2) -> DVec4 {
         let [x, y] = self.axes;
         let on_axes = |d: DVec2| (x * d.x + y * d.y).extend(0.0);
@@ -103,7 +106,8 @@ impl LightFrom<'_> {
             Domain::Picture(luminance) => self.center + on_axes(luminance.sample(u) * 2.0 - 1.0),
             Domain::Disc => self.center + on_axes(square_to_disc(u)),
             Domain::Cap(height) => {
-                // Archimedes: the area of a cap goes by its height, so the height below the pole is `height` · r².
+                // Archimedes: the area of a cap goes by its height, so the height below the pole is
+                // `height` · r².
                 let d = square_to_disc(u);
                 let below = height * d.length_squared();
                 self.center * (1.0 - below) + on_axes(d * (height * (2.0 - below)).max(0.0).sqrt())
@@ -117,7 +121,8 @@ fn perpendicular_to(v: DVec3) -> (DVec3, DVec3) {
     v.normalize_or(DVec3::Y).any_orthonormal_pair()
 }
 
-/// Half axes of the disc that faces `to_center` in the space where the ellipsoid is a unit sphere, in world space.
+/// Half axes of the disc that faces `to_center` in the space where the ellipsoid is a unit sphere,
+/// in world space.
 fn ellipse_facing(to_center: DVec3, radii: DVec3, rotation: &DMat3) -> [DVec3; 2] {
     // A flat ellipsoid is the limit of thin ones.
     let thin = radii.max(DVec3::splat(radii.max_element() * 1e-9)).max(DVec3::splat(f64::MIN_POSITIVE));
@@ -266,7 +271,8 @@ mod tests {
 
     #[test]
     fn a_textured_rectangle_shines_where_its_picture_is_bright() {
-        // White in the top left corner for somebody who looks at the emitting side, black elsewhere.
+        // White in the top left corner for somebody who looks at the emitting side, black
+        // elsewhere.
         let mut rgba = vec![[0, 0, 0, 255]; 4];
         rgba[0] = [255; 4];
         let texture = Texture { name: "corner".into(), width: 2, height: 2, rgba };

@@ -3,8 +3,9 @@
 use crate::material::Texture;
 use glam::DVec2;
 
-/// The brightness of a picture as a piecewise-constant density over the square [0, 1]², ready to be sampled by
-/// inverting its marginal and conditional distributions (Pharr, Jakob, Humphreys, "Physically Based Rendering", 2023, A.4).
+/// The brightness of a picture as a piecewise-constant density over the square [0, 1]², ready to be
+/// sampled by inverting its marginal and conditional distributions (Pharr, Jakob, Humphreys,
+/// "Physically Based Rendering", 2023, A.4).
 #[derive(Debug)]
 pub struct Luminance {
     /// The rows' shares, summed up: `height + 1` numbers from 0 to 1.
@@ -14,8 +15,8 @@ pub struct Luminance {
 }
 
 impl Luminance {
-    /// The linear luminance (Rec. 709) of the picture's colour; alpha counts for nothing. `None` where nothing
-    /// is bright or the picture holds fewer pixels than it should.
+    /// The linear luminance (Rec. 709) of the picture's colour; alpha counts for nothing. `None`
+    /// where nothing is bright or the picture holds fewer pixels than it should.
     pub fn of(texture: &Texture) -> Option<Self> {
         let width = texture.width as usize;
         if width == 0 || texture.rgba.len() != width * texture.height as usize {
@@ -37,7 +38,8 @@ impl Luminance {
         (total > 0.0).then_some(Self { rows, columns })
     }
 
-    /// Takes evenly spread points to points as dense as the picture is bright; x along a row, y down from row 0.
+    /// Takes evenly spread points to points as dense as the picture is bright; x along a row, y
+    /// down from row 0.
     pub fn sample(&self, u: DVec2) -> DVec2 {
         let (row, y) = invert(&self.rows, u.y);
         let width = self.columns.len() / (self.rows.len() - 1);
@@ -45,7 +47,8 @@ impl Luminance {
         DVec2::new(x, y)
     }
 
-    /// The share of the whole brightness within a rectangle of the square, x along a row, y down from row 0.
+    /// The share of the whole brightness within a rectangle of the square, x along a row, y down
+    /// from row 0.
     pub fn within(&self, low: DVec2, high: DVec2) -> f64 {
         let width = self.columns.len() / (self.rows.len() - 1);
         let up_to = |row: usize, x: f64| interpolate(&self.columns[row * width..(row + 1) * width], x);
@@ -82,10 +85,12 @@ fn cumulative(weights: impl Iterator<Item = f64>) -> (Vec<f64>, f64) {
     (sums, total)
 }
 
-/// The cell of the running sums that `u` falls into, never an empty one, and the place in [0, 1] over all cells.
+/// The cell of the running sums that `u` falls into, never an empty one, and the place in [0, 1]
+/// over all cells.
 fn invert(sums: &[f64], u: f64) -> (usize, f64) {
     let cells = sums.len() - 1;
-    // Past the last sum that is not above `u`: cells without weight repeat their sum and are passed over.
+    // Past the last sum that is not above `u`: cells without weight repeat their sum and are passed
+    // over.
     let u = u.clamp(0.0, 1.0 - f64::EPSILON);
     let cell = sums.partition_point(|s| *s <= u).clamp(1, cells) - 1;
     let weight = sums[cell + 1] - sums[cell];

@@ -1,8 +1,9 @@
 //! Low-discrepancy points, and points of every light shape.
 //!
-//! [`LightSampler`] gives the points that one receiver sees a light through, as the definition of visibility has them;
-//! the plain mean of "is this point seen?" over [`lattice`] points is the visibility. [`hard_lights`] replaces a soft
-//! light by many hard ones for all receivers at once. [`TapTable`] has the places where a filter looks up a map.
+//! [`LightSampler`] gives the points that one receiver sees a light through, as the definition of
+//! visibility has them; the plain mean of "is this point seen?" over [`lattice`] points is the
+//! visibility. [`hard_lights`] replaces a soft light by many hard ones for all receivers at once.
+//! [`TapTable`] has the places where a filter looks up a map.
 
 mod blue_noise;
 mod hard_lights;

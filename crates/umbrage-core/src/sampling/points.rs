@@ -3,40 +3,43 @@
 use glam::{DVec2, UVec2};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-/// 1/φ, φ the golden ratio: the multiple of it that comes closest to a whole number is as far off as can be.
+/// 1/φ, φ the golden ratio: the multiple of it that comes closest to a whole number is as far off
+/// as can be.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// `n` points of the square [0, 1)²: (i/n, frac(i/φ)). The golden-ratio rank-1 lattice; where `n` is a Fibonacci number
-/// it is, up to rounding to multiples of 1/n, the Fibonacci lattice, the best one there is (Niederreiter, Sloan 1994).
+/// `n` points of the square [0, 1)²: (i/n, frac(i/φ)). The golden-ratio rank-1 lattice; where `n`
+/// is a Fibonacci number it is, up to rounding to multiples of 1/n, the Fibonacci lattice, the best
+/// one there is (Niederreiter, Sloan 1994).
 pub fn lattice(n: usize) -> Vec<DVec2> {
     (0..n).map(|i| DVec2::new(i as f64 / n as f64, (i as f64 * GOLDEN).fract())).collect()
 }
 
-/// The points of [`lattice`], rotated such that the set is its own mirror image through the middle of the square:
-/// its mean is the middle, and a single point is there.
+/// The points of [`lattice`], rotated such that the set is its own mirror image through the middle
+/// of the square: its mean is the middle, and a single point is there.
 pub(super) fn symmetric_lattice(n: usize) -> impl Iterator<Item = DVec2> {
     let last = n.saturating_sub(1) as f64;
     let to_middle = DVec2::splat(0.5) - DVec2::new(0.5 * last / n as f64, 0.5 * last * GOLDEN);
     lattice(n).into_iter().map(move |u| rotated(u, to_middle))
 }
 
-/// A pseudo-random point of [0, 1)² that belongs to `seed`, such as a pixel's index: what [`rotated`] moves that
-/// pixel's points by. Neighbouring seeds give unrelated points.
+/// A pseudo-random point of [0, 1)² that belongs to `seed`, such as a pixel's index: what
+/// [`rotated`] moves that pixel's points by. Neighbouring seeds give unrelated points.
 pub fn shift(seed: u32) -> DVec2 {
     let x = hash(seed ^ 0x9e37_79b9);
     let y = hash(x.wrapping_add(seed).wrapping_mul(0x85eb_ca6b) ^ 0x68bc_21eb);
     UVec2::new(x, y).as_dvec2() / 4_294_967_296.0
 }
 
-/// `point` moved by `shift` on the torus [0, 1)²: a Cranley–Patterson rotation, which keeps a lattice a lattice.
+/// `point` moved by `shift` on the torus [0, 1)²: a Cranley–Patterson rotation, which keeps a
+/// lattice a lattice.
 pub fn rotated(point: DVec2, shift: DVec2) -> DVec2 {
     let moved = point + shift;
     // A tiny negative number would be rounded up to 1.
     (moved - moved.floor()).min(DVec2::splat(1.0 - f64::EPSILON / 2.0))
 }
 
-/// Takes the square [0, 1]² to the unit disc so that equal areas stay equal: Shirley and Chiu, "A Low Distortion Map
-/// Between Disk and Square", 1997. The middle of the square goes to the centre.
+/// Takes the square [0, 1]² to the unit disc so that equal areas stay equal: Shirley and Chiu, "A
+/// Low Distortion Map Between Disk and Square", 1997. The middle of the square goes to the centre.
 pub fn square_to_disc(square: DVec2) -> DVec2 {
     let p = square * 2.0 - 1.0;
     let (radius, angle) = if p.x.abs() > p.y.abs() {
@@ -49,7 +52,8 @@ pub fn square_to_disc(square: DVec2) -> DVec2 {
     DVec2::from_angle(angle) * radius
 }
 
-/// A hash of 32 bits with little bias: `lowbias32` of Wellons, "Prospecting for Hash Functions", 2018.
+/// A hash of 32 bits with little bias: `lowbias32` of Wellons, "Prospecting for Hash
+/// Functions", 2018.
 fn hash(mut x: u32) -> u32 {
     x ^= x >> 16;
     x = x.wrapping_mul(0x7feb_352d);
@@ -123,7 +127,8 @@ mod tests {
 
     #[test]
     fn the_map_to_the_disc_keeps_areas() {
-        // Cells of a grid, taken to the disc as polygons with many corners, have the area of the cell times π.
+        // Cells of a grid, taken to the disc as polygons with many corners, have the area of the
+        // cell times π.
         let (cells, steps) = (4, 64);
         for i in 0..cells {
             for j in 0..cells {

@@ -1,4 +1,5 @@
-//! Where a filter looks up its map: sets of taps, a different one for neighbouring pixels, or one for all.
+//! Where a filter looks up its map: sets of taps, a different one for neighbouring pixels, or one
+//! for all.
 
 mod layout;
 
@@ -27,14 +28,17 @@ pub enum Domain {
 /// How neighbouring pixels differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pattern {
-    /// Each pixel of a tile has a set of its own, one jittered tap in each of many strata of equal area: Uralsky,
-    /// "Efficient Soft-Edged Shadows Using Pixel Shader Branching", GPU Gems 2, chapter 17, 2005.
+    /// Each pixel of a tile has a set of its own, one jittered tap in each of many strata of equal
+    /// area: Uralsky, "Efficient Soft-Edged Shadows Using Pixel Shader Branching", GPU Gems 2,
+    /// chapter 17, 2005.
     Stratified,
-    /// One evenly spread set, 64 times, turned (disc) or shifted (square, segment) more and more; a tile of blue noise
-    /// says which of them a pixel takes, so that the errors of neighbours cancel.
+    /// One evenly spread set, 64 times, turned (disc) or shifted (square, segment) more and more; a
+    /// tile of blue noise says which of them a pixel takes, so that the errors of neighbours
+    /// cancel.
     Blue,
-    /// The same 64 sets. Which of them a pixel takes is left to the shader: interleaved gradient noise, Jimenez, "Next
-    /// Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014.
+    /// The same 64 sets. Which of them a pixel takes is left to the shader: interleaved gradient
+    /// noise, Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare",
+    /// SIGGRAPH 2014.
     Gradient,
     /// All pixels take the same evenly spread set.
     Fixed,
@@ -43,8 +47,8 @@ pub enum Pattern {
 /// Sets of taps for one filter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TapTable {
-    /// Pixels across and down after which the sets repeat; 1 where the shader chooses the set ([`Pattern::Gradient`])
-    /// and where there is only one ([`Pattern::Fixed`]).
+    /// Pixels across and down after which the sets repeat; 1 where the shader chooses the set
+    /// ([`Pattern::Gradient`]) and where there is only one ([`Pattern::Fixed`]).
     pub tile: u32,
     /// Number of sets.
     pub sets: u32,
@@ -57,13 +61,14 @@ pub struct TapTable {
 }
 
 impl TapTable {
-    /// Sets of `taps` taps that fill `domain` evenly, in such an order that the first `tests` alone find out whether
-    /// there is anything to filter: they are spread along the border of the disc or the square, one in each of `tests`
-    /// equal sectors, or over all of the segment. A penumbra is met at the border first.
+    /// Sets of `taps` taps that fill `domain` evenly, in such an order that the first `tests` alone
+    /// find out whether there is anything to filter: they are spread along the border of the disc
+    /// or the square, one in each of `tests` equal sectors, or over all of the segment. A penumbra
+    /// is met at the border first.
     ///
-    /// `taps` is at least 1, which is the middle, and `tests` counts as at most `taps`. The sets repeat every `tile`
-    /// pixels (at least 1) where `pattern` has tiles; its blue noise takes time by `tile`⁴. Every call with the same
-    /// arguments gives the same table.
+    /// `taps` is at least 1, which is the middle, and `tests` counts as at most `taps`. The sets
+    /// repeat every `tile` pixels (at least 1) where `pattern` has tiles; its blue noise takes time
+    /// by `tile`⁴. Every call with the same arguments gives the same table.
     pub fn new(pattern: Pattern, domain: Domain, taps: u32, tests: u32, tile: u32) -> Self {
         let (taps, tile) = (taps.max(1), tile.max(1));
         let tests = tests.min(taps);
@@ -87,8 +92,8 @@ impl TapTable {
         Self { tile, sets, taps, set_of_pixel, offsets }
     }
 
-    /// One set for all pixels: the middles of a grid of `side` × `side` equal cells over `domain`, row by row; a segment gets
-    /// as many points along its length. `side` is at least 1.
+    /// One set for all pixels: the middles of a grid of `side` × `side` equal cells over `domain`,
+    /// row by row; a segment gets as many points along its length. `side` is at least 1.
     pub fn grid(domain: Domain, side: u32) -> Self {
         let side = side.max(1);
         let taps = side * side;
@@ -105,8 +110,8 @@ impl TapTable {
         Self { tile: 1, sets: 1, taps, set_of_pixel: vec![0], offsets }
     }
 
-    /// The taps of a square as dense as `texture` is bright; x runs along a row, y up from its last row. Nothing changes
-    /// where nothing of it is bright.
+    /// The taps of a square as dense as `texture` is bright; x runs along a row, y up from its last
+    /// row. Nothing changes where nothing of it is bright.
     pub fn weighted_by(mut self, texture: &Texture) -> Self {
         let Some(luminance) = Luminance::of(texture) else { return self };
         for tap in &mut self.offsets {

@@ -1,7 +1,7 @@
 //! Upkeep of the boxes around what is in and below each node.
 //!
-//! Both ways stop at the first node that does not change, so a move costs a node or two unless it is at the rim of
-//! everything.
+//! Both ways stop at the first node that does not change, so a move costs a node or two unless it
+//! is at the rim of everything.
 
 use super::{Node, ROOT, SceneTree, grown_by_rounding};
 use crate::bounds::Bounds;
@@ -28,7 +28,8 @@ impl SceneTree {
         }
     }
 
-    /// Shrinks the boxes of `node` and those above it to what is left after an object with this box went.
+    /// Shrinks the boxes of `node` and those above it to what is left after an object with this box
+    /// went.
     pub(super) fn shrink_content(&mut self, mut node: u32, went: &Bounds) {
         let mut went = *went;
         loop {
@@ -52,7 +53,8 @@ impl SceneTree {
 }
 
 impl Node {
-    /// The content, a little larger, so that rounding in a volume's test never parts an object from its node.
+    /// The content, a little larger, so that rounding in a volume's test never parts an object from
+    /// its node.
     pub(super) fn around_content(&self) -> Bounds {
         grown_by_rounding(self.content)
     }

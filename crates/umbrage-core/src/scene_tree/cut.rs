@@ -8,9 +8,10 @@ use crate::{
 use std::collections::VecDeque;
 
 impl SceneTree {
-    /// Appends at most `most` boxes (at least one where there is anything) that together hold each object whose box
-    /// `volume` may touch: the objects' own boxes where they are few enough, else boxes around what is in a part of the
-    /// space, the smaller the more there may be. Work goes by `most` and what is at the border, not by the number of objects.
+    /// Appends at most `most` boxes (at least one where there is anything) that together hold each
+    /// object whose box `volume` may touch: the objects' own boxes where they are few enough, else
+    /// boxes around what is in a part of the space, the smaller the more there may be. Work goes by
+    /// `most` and what is at the border, not by the number of objects.
     pub fn cut(&self, volume: &impl Volume, most: usize, boxes: &mut Vec<Bounds>) {
         let root = &self.nodes[ROOT as usize];
         if volume.side(&root.around_content()) == Side::Outside {

@@ -1,17 +1,19 @@
-//! The objects in the order of the nodes, so that those in and below a node are one slice, and a query takes them at once. Otherwise it
-//! would go to every node of what is wholly seen, most of it memory that nobody has looked at since the last frame.
+//! The objects in the order of the nodes, so that those in and below a node are one slice, and a
+//! query takes them at once. Otherwise it would go to every node of what is wholly seen, most of it
+//! memory that nobody has looked at since the last frame.
 
 use super::{Node, ROOT, SceneTree};
 
 /// All is put in order again when this share of the objects has come or gone since.
 const CHANGED: usize = 4;
 
-/// Where the objects in and below a node are in the order; `None` since one came or went. The root's does not count: it is never taken whole.
+/// Where the objects in and below a node are in the order; `None` since one came or went. The
+/// root's does not count: it is never taken whole.
 pub(super) type Span = Option<[u32; 2]>;
 
 impl SceneTree {
-    /// Puts all objects in order, as the tree does by itself from time to time; worth a call when all of a scene has been added. Queries find
-    /// the same before and after.
+    /// Puts all objects in order, as the tree does by itself from time to time; worth a call when
+    /// all of a scene has been added. Queries find the same before and after.
     pub fn put_in_order(&mut self) {
         self.order.clear();
         self.changes = 0;

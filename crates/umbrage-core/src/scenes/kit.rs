@@ -15,7 +15,8 @@ impl Detail {
         Self(f64::from(detail.clamp(*range.start(), *range.end())))
     }
 
-    /// `normal` segments along one direction of a surface, changed so that its triangles go by the detail; at least `least`.
+    /// `normal` segments along one direction of a surface, changed so that its triangles go by the
+    /// detail; at least `least`.
     pub fn segments(self, normal: u32, least: u32) -> u32 {
         ((f64::from(normal) * self.0.sqrt()).round() as u32).max(least)
     }
@@ -85,7 +86,8 @@ pub fn standing(ground: DVec3, size: DVec3, turn_deg: f64) -> DAffine3 {
     sized(ground + DVec3::Y * (size.y * 0.5), size, turn_deg)
 }
 
-/// The direction sunlight travels in that comes from `azimuth_deg` (from +Z towards +X) and `elevation_deg` over the horizon.
+/// The direction sunlight travels in that comes from `azimuth_deg` (from +Z towards +X) and
+/// `elevation_deg` over the horizon.
 pub fn sunlight(azimuth_deg: f64, elevation_deg: f64) -> DVec3 {
     let (sin_a, cos_a) = azimuth_deg.to_radians().sin_cos();
     let (sin_e, cos_e) = elevation_deg.to_radians().sin_cos();

@@ -1,7 +1,7 @@
 //! Procedural scenes with a registry: the product works with nothing but its own source.
 //!
-//! A scene is one file with a `const ENTRY` and its line in [`SCENES`]. Light 0 is hard, light 1 soft; each file says
-//! what its lights are for. Building is deterministic.
+//! A scene is one file with a `const ENTRY` and its line in [`SCENES`]. Light 0 is hard, light 1
+//! soft; each file says what its lights are for. Building is deterministic.
 
 mod atrium;
 mod city;
@@ -28,9 +28,9 @@ pub struct SceneEntry {
     pub title: &'static str,
     /// What it is for.
     pub about: &'static str,
-    /// Builds it. The argument is the detail: 1 is the normal state, triangles (in the city: boxes) go about in
-    /// proportion to it. The range is 0.05 … 4, for the city 0.05 … 64; numbers beyond are brought into it, and
-    /// NaN counts as 1.
+    /// Builds it. The argument is the detail: 1 is the normal state, triangles (in the city: boxes)
+    /// go about in proportion to it. The range is 0.05 … 4, for the city 0.05 … 64; numbers beyond
+    /// are brought into it, and NaN counts as 1.
     pub build: fn(detail: f32) -> Scene,
 }
 

@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 /// Edges that bend by more than this many degrees are sharp.
 const CREASE_DEG: f32 = 44.0;
 
-/// A solid of revolution around Y with `columns` columns, at least 3. The profile goes from the top down, as
-/// (radius, height); it is closed where both ends have radius 0.
+/// A solid of revolution around Y with `columns` columns, at least 3. The profile goes from the top
+/// down, as (radius, height); it is closed where both ends have radius 0.
 pub fn lathe(name: &str, columns: u32, profile: &[DVec2]) -> Mesh {
     let columns = columns.max(3);
     let mut mesh = Mesh { name: name.into(), ..Mesh::default() };
@@ -47,15 +47,17 @@ impl Ring {
     }
 }
 
-/// Points of a circular arc for a profile or an outline, both ends included, angles in degrees from +X towards +Y.
+/// Points of a circular arc for a profile or an outline, both ends included, angles in degrees
+/// from +X towards +Y.
 pub fn arc(center: DVec2, radius: f64, from_deg: f64, to_deg: f64, segments: u32) -> Vec<DVec2> {
     let step = (to_deg - from_deg) / f64::from(segments);
     let angle = |i: u32| if i == segments { to_deg } else { from_deg + step * f64::from(i) };
     (0..=segments).map(|i| center + DVec2::from_angle(angle(i).to_radians()) * radius).collect()
 }
 
-/// What lies between two open outlines of equally many points in the XY plane that run counter-clockwise around the
-/// same middle, `inner` nearer to it; `depth` thick along Z, centred. An arch, for example.
+/// What lies between two open outlines of equally many points in the XY plane that run
+/// counter-clockwise around the same middle, `inner` nearer to it; `depth` thick along Z, centred.
+/// An arch, for example.
 pub fn between(name: &str, inner: &[DVec2], outer: &[DVec2], depth: f64) -> Mesh {
     let mut mesh = Mesh { name: name.into(), ..Mesh::default() };
     let z = (depth * 0.5) as f32;
@@ -93,8 +95,9 @@ pub fn prism(name: &str, outline: &[DVec2], depth: f64) -> Mesh {
     mesh.with_creases(CREASE_DEG)
 }
 
-/// A panel of 1 × 1 in the XY plane and 1 thick along Z, centred, of `columns` × `rows` cells, without those that
-/// `is_hole` names. Cells must not touch at a corner only, or the edge there is not manifold.
+/// A panel of 1 × 1 in the XY plane and 1 thick along Z, centred, of `columns` × `rows` cells,
+/// without those that `is_hole` names. Cells must not touch at a corner only, or the edge there is
+/// not manifold.
 pub fn perforated_panel(columns: u32, rows: u32, is_hole: impl Fn(u32, u32) -> bool) -> Mesh {
     let mut mesh = Mesh { name: "perforated panel".into(), ..Mesh::default() };
     for z in [0.5, -0.5] {

@@ -81,8 +81,8 @@ fn plant(scene: &mut Scene, hills: &Hills, detail: Detail) {
     }
 }
 
-/// Where trees stand: four in the middle of the view, the others by chance where a slow noise wants groves, with room
-/// between them and a clearing before the camera.
+/// Where trees stand: four in the middle of the view, the others by chance where a slow noise wants
+/// groves, with room between them and a clearing before the camera.
 fn places(rng: &mut Rng, count: u32) -> Vec<DVec2> {
     let mut places = vec![DVec2::new(12.5, 47.0), DVec2::new(-6.5, 43.0), DVec2::new(2.5, 38.0), DVec2::new(9.5, 33.0)];
     // Bounded: at high counts the groves are full before all have found room.

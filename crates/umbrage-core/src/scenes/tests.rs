@@ -146,7 +146,8 @@ fn lights_are_valid_and_the_first_is_hard_the_second_soft() {
     }
 }
 
-/// Light sources are in the open: a bit of every scene's floor or walls is lit by each of its lights.
+/// Light sources are in the open: a bit of every scene's floor or walls is lit by each of its
+/// lights.
 #[test]
 fn lights_are_outside_of_boxes() {
     for entry in SCENES {

@@ -68,7 +68,8 @@ fn lump(columns: u32, rng: &mut Rng) -> Mesh {
     welded.with_creases(70.0)
 }
 
-/// The mesh with vertices at the same place made one, so that its normals run smoothly over texture seams.
+/// The mesh with vertices at the same place made one, so that its normals run smoothly over texture
+/// seams.
 fn welded(mesh: &Mesh) -> Mesh {
     let mut first = std::collections::HashMap::new();
     let mut positions = Vec::new();
@@ -83,7 +84,8 @@ fn welded(mesh: &Mesh) -> Mesh {
     Mesh { name: mesh.name.clone(), positions, indices, ..Mesh::default() }
 }
 
-/// Three upright squares of side 1 that cross in the Y axis and stand on y = 0, with the texture of [`leaf_texture`].
+/// Three upright squares of side 1 that cross in the Y axis and stand on y = 0, with the texture of
+/// [`leaf_texture`].
 pub fn cards() -> Mesh {
     let mut mesh = Mesh { name: "tree cards".into(), ..Mesh::default() };
     for k in 0..3 {
@@ -93,7 +95,8 @@ pub fn cards() -> Mesh {
         for (x, y) in [(-0.5f32, 0.0f32), (0.5, 0.0), (0.5, 1.0), (-0.5, 1.0)] {
             mesh.positions.push(side * x + Vec3::Y * y);
             mesh.normals.push(side.cross(Vec3::Y));
-            // A little inside the picture, so that repetition does not bring the trunk in over the crown.
+            // A little inside the picture, so that repetition does not bring the trunk in over the
+            // crown.
             mesh.uvs.push(Vec2::new(x + 0.5, 1.0 - y) * 0.99 + 0.005);
         }
         mesh.indices.extend([0, 1, 2, 0, 2, 3].map(|i| base + i));

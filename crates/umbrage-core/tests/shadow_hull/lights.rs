@@ -23,7 +23,8 @@ fn light(middle: DVec3) -> impl Strategy<Value = Light> {
     })
 }
 
-/// A point that a light reaches: `turn` in [0, 1]² chooses a direction in the cone, `share` the distance.
+/// A point that a light reaches: `turn` in [0, 1]² chooses a direction in the cone, `share` the
+/// distance.
 fn lit(light: &Light, turn: [f64; 2], share: f64) -> DVec3 {
     let (axis, angle_deg) = match light.shape {
         LightShape::Spot { direction, outer_angle_deg, .. } => (direction, outer_angle_deg),

@@ -1,4 +1,5 @@
-//! What is culled must not matter: hulls, rectangles and reaches against points that are seen, lit and shadowed.
+//! What is culled must not matter: hulls, rectangles and reaches against points that are seen, lit
+//! and shadowed.
 
 mod bodies;
 mod lights;

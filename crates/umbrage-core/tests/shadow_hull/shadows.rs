@@ -49,7 +49,8 @@ proptest! {
         if !hull.may_touch(&Bounds { min: p, max: p }) {
             return Ok(());
         }
-        // On the ray from the light through the point there is something seen, at a receiver's distance.
+        // On the ray from the light through the point there is something seen, at a receiver's
+        // distance.
         let away = (p * light.w - light.truncate()).normalize();
         let forward = shot.camera.axes()[2];
         let depths = receivers.corners().map(|c| forward.dot(c - shot.camera.eye));

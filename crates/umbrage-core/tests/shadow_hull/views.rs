@@ -54,10 +54,12 @@ impl Shot {
         Self { view, near, far, parallel: matches!(projection, Projection::Parallel), camera }
     }
 
-    /// The point at `ndc`, in [−1, 1], at a share between near plane and `farthest`, or the far plane if that is nearer.
+    /// The point at `ndc`, in [−1, 1], at a share between near plane and `farthest`, or the far
+    /// plane if that is nearer.
     pub fn seen(&self, ndc: DVec2, share: f64, farthest: f64) -> DVec3 {
         let (near, far) = (self.near, farthest.min(self.far));
-        // Even on a logarithmic scale, and not quite at the planes, so that rounding puts no point outside.
+        // Even on a logarithmic scale, and not quite at the planes, so that rounding puts no point
+        // outside.
         let depth = near * (far / near).powf(0.001 + 0.998 * share);
         self.at(ndc, depth)
     }
@@ -81,7 +83,8 @@ impl Shot {
         self.camera.eye + right * (ndc.x * half * aspect) + up * (ndc.y * half) + forward * depth
     }
 
-    /// How far a point is beyond the worst of the planes around what is seen between two distances along the view.
+    /// How far a point is beyond the worst of the planes around what is seen between two distances
+    /// along the view.
     pub fn outside(&self, point: DVec3, [first, last]: [f64; 2]) -> f64 {
         let v = point - self.camera.eye;
         let [x, y, depth] = self.camera.axes().map(|axis| axis.dot(v));
@@ -96,7 +99,8 @@ impl Shot {
         planes.into_iter().fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Where a point is in the picture, in pixels; `None` where it isn't seen. Worked out relative to the eye.
+    /// Where a point is in the picture, in pixels; `None` where it isn't seen. Worked out relative
+    /// to the eye.
     pub fn pixel(&self, point: DVec3) -> Option<DVec2> {
         let [right, up, forward] = self.camera.axes();
         let v = point - self.camera.eye;
@@ -154,7 +158,8 @@ pub fn on_the_way(from: DVec3, light: DVec4, share: f64) -> DVec3 {
     from + (light.truncate() - from * light.w) * (share * reach)
 }
 
-/// A box of half size `half` around a point that has `inside` (its coordinates in [−1, 1]) at `point`.
+/// A box of half size `half` around a point that has `inside` (its coordinates in [−1, 1]) at
+/// `point`.
 pub fn box_with(point: DVec3, half: DVec3, inside: DVec3) -> Bounds {
     let center = point - half * inside;
     // A coordinate may round to the wrong side of the point.

@@ -96,7 +96,8 @@ impl<'a> Accessors<'a> {
         Ok(elements)
     }
 
-    /// `count` slices of `size` bytes or more, each an element and what lies between it and the next.
+    /// `count` slices of `size` bytes or more, each an element and what lies between it and the
+    /// next.
     fn slices(
         &self,
         array: &Array<'_>,

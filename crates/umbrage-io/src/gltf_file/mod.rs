@@ -1,9 +1,9 @@
 //! glTF 2.0: `.gltf` with its files, and `.glb`.
 //!
-//! Read are nodes, meshes (triangles, strips, fans), skins, animations of nodes, base-colour and roughness of materials,
-//! alpha masks, perspective cameras and `KHR_lights_punctual`. Whatever else changes the picture is noted. The `gltf`
-//! crate reads and validates the JSON; bytes are read here, with every range checked. (Source: Khronos, "glTF 2.0
-//! specification", version 2.0.1.)
+//! Read are nodes, meshes (triangles, strips, fans), skins, animations of nodes, base-colour and
+//! roughness of materials, alpha masks, perspective cameras and `KHR_lights_punctual`. Whatever
+//! else changes the picture is noted. The `gltf` crate reads and validates the JSON; bytes are read
+//! here, with every range checked. (Source: Khronos, "glTF 2.0 specification", version 2.0.1.)
 
 mod accessor;
 mod animation;
@@ -24,7 +24,8 @@ use std::collections::{BTreeSet, HashMap};
 use std::fmt::Display;
 use std::path::Path;
 
-/// Extensions that only tell how data are stored or seen: a file that requires them can be shown without.
+/// Extensions that only tell how data are stored or seen: a file that requires them can be shown
+/// without.
 const HARMLESS: [&str; 3] = ["KHR_lights_punctual", "KHR_mesh_quantization", "KHR_texture_transform"];
 
 /// The file being read, for errors and notes.
@@ -151,7 +152,8 @@ fn parse(file: &mut File<'_>, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>
     Ok((document, gltf.blob))
 }
 
-/// The `gltf` crate refuses positions without bounds, which are not needed here, and panics on those out of range.
+/// The `gltf` crate refuses positions without bounds, which are not needed here, and panics on
+/// those out of range.
 fn make_safe_to_validate(file: &File<'_>, root: &mut gltf::json::Root) -> Result<(), Error> {
     let count = root.accessors.len();
     for (index, mesh) in root.meshes.iter().enumerate() {

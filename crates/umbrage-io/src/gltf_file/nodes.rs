@@ -58,7 +58,8 @@ impl Nodes {
         self.model_from_node[self.place[index]]
     }
 
-    /// The nodes of the default scene, or else of the first one, or else all of them; parents before children.
+    /// The nodes of the default scene, or else of the first one, or else all of them; parents
+    /// before children.
     pub fn shown<'a>(&self, document: &'a Document) -> Vec<Node<'a>> {
         let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) else {
             return document.nodes().collect();

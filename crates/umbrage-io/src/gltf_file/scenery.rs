@@ -1,7 +1,8 @@
 //! Cameras and `KHR_lights_punctual`.
 //!
-//! Intensities are in candela (point, spot) and lux (directional). The lighting model has no 1/π in its diffuse term, so
-//! they are divided by π; point and spot lights fall off with the squared distance.
+//! Intensities are in candela (point, spot) and lux (directional). The lighting model has no 1/π in
+//! its diffuse term, so they are divided by π; point and spot lights fall off with the squared
+//! distance.
 
 use super::File;
 use crate::Error;

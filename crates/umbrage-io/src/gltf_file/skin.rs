@@ -10,7 +10,8 @@ use gltf::Semantic;
 use umbrage_core::Mesh;
 use umbrage_core::rig::{Influence, Joint, Skin};
 
-/// The joints of a skin. The transform of the node that shows the mesh does not count (the specification's section 3.7.3.3).
+/// The joints of a skin. The transform of the node that shows the mesh does not count (the
+/// specification's section 3.7.3.3).
 pub(super) fn read(
     file: &File<'_>,
     accessors: &Accessors<'_>,

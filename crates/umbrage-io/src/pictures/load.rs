@@ -7,7 +7,8 @@ use std::io::Cursor;
 use std::path::Path;
 use umbrage_core::{Image, Texture};
 
-/// Larger EXR pictures are taken for damaged ones: their size is believed, and memory held, before their pixels are read.
+/// Larger EXR pictures are taken for damaged ones: their size is believed, and memory held, before
+/// their pixels are read.
 const MOST_PIXELS: usize = 1 << 28;
 
 /// Reads a PNG or JPEG as a texture; 16-bit pictures lose their lower half.
@@ -29,8 +30,8 @@ pub fn texture_from_bytes(name: &Path, bytes: &[u8]) -> Result<Texture, Error> {
     Ok(Texture { name: name.display().to_string(), width, height, rgba })
 }
 
-/// Reads a grey picture: an 8-bit or 16-bit PNG as 0…1, or an EXR with a channel `V`, `Y` or `Z`, or with one channel
-/// of any name, as it stands.
+/// Reads a grey picture: an 8-bit or 16-bit PNG as 0…1, or an EXR with a channel `V`, `Y` or `Z`,
+/// or with one channel of any name, as it stands.
 ///
 /// # Errors
 /// As [`load_texture`]; a picture in colour.

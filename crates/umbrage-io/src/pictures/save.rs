@@ -16,7 +16,8 @@ mod sealed {
     impl Sealed for [u8; 4] {}
 }
 
-/// What the pixels of a PNG can be: `u8` and `u16` grey, `[u8; 3]` RGB, `[u8; 4]` RGBA with straight alpha.
+/// What the pixels of a PNG can be: `u8` and `u16` grey, `[u8; 3]` RGB, `[u8; 4]` RGBA with
+/// straight alpha.
 pub trait PngPixel: sealed::Sealed {
     /// How the PNG calls it.
     #[doc(hidden)]
@@ -77,8 +78,8 @@ pub fn save_png<P: PngPixel>(path: &Path, image: &Image<P>) -> Result<(), Error>
     save_bytes(path, &png_bytes(path, image)?)
 }
 
-/// Writes shares, such as visibility, as a linear 16-bit grey PNG: 0 becomes 0, 1 becomes 65535, what is beyond is
-/// cut off there.
+/// Writes shares, such as visibility, as a linear 16-bit grey PNG: 0 becomes 0, 1 becomes 65535,
+/// what is beyond is cut off there.
 ///
 /// # Errors
 /// A value that is not a number, and as [`save_png`].
@@ -124,8 +125,8 @@ fn save_channels(path: &Path, (width, height): (u32, u32), channels: Vec<(&str, 
     save_bytes(path, bytes.get_ref())
 }
 
-/// Writes a file as a whole: into a temporary file beside it, which then takes its name. Whatever goes wrong, a file
-/// that was there before is still there.
+/// Writes a file as a whole: into a temporary file beside it, which then takes its name. Whatever
+/// goes wrong, a file that was there before is still there.
 ///
 /// # Errors
 /// A folder that is missing or cannot be written to, a full disk.
@@ -139,7 +140,8 @@ pub fn save_bytes(path: &Path, bytes: &[u8]) -> Result<(), Error> {
         let mut builder = tempfile::Builder::new();
         #[cfg(unix)]
         {
-            // Temporary files are for the owner alone; the mask of the user decides about this one, as usual.
+            // Temporary files are for the owner alone; the mask of the user decides about this one,
+            // as usual.
             use std::os::unix::fs::PermissionsExt;
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }

@@ -14,7 +14,8 @@ const OPTIONS: Options = Options { samples: 4096, gather: true, same_points: fal
 fn above_plane(light: &Light, p: DVec3, up: DVec3) -> Option<f64> {
     match light.shape {
         LightShape::Sphere { position, radius } => Some(sphere_above_plane(p, up, position, radius)),
-        // The disc in the ellipsoid's own space; the plane's normal goes there by the transposed map.
+        // The disc in the ellipsoid's own space; the plane's normal goes there by the transposed
+        // map.
         LightShape::Ellipsoid { position, radii, rotation } => {
             let to_unit = |v: DVec3| rotation.transpose() * v / radii;
             let up = rotation.transpose() * up * radii;

@@ -1,4 +1,5 @@
-//! The tracer against pictures of other software, some rows of each. The example `check_references` takes all rows.
+//! The tracer against pictures of other software, some rows of each. The example `check_references`
+//! takes all rows.
 
 use std::path::{Path, PathBuf};
 use umbrage_io::stored::{self, StoredReference};

@@ -247,7 +247,8 @@ fn rays_that_make_no_sense_are_not_blocked() {
 #[test]
 fn a_bright_spot_on_a_textured_light_counts_for_more() {
     let mut scene = still_life();
-    // The light's picture is black but for its left half, so that the light is as one of half the width.
+    // The light's picture is black but for its left half, so that the light is as one of half the
+    // width.
     let rgba = (0..16).map(|i| if i % 4 < 2 { [255; 4] } else { [0, 0, 0, 255] }).collect();
     scene.textures.push(Texture { name: "half lit".into(), width: 4, height: 4, rgba });
     let (position, direction, up) = (DVec3::new(0.0, 4.0, 0.0), DVec3::NEG_Y, DVec3::NEG_Z);

@@ -1,9 +1,10 @@
-//! Straight ways through triangles, both with corners at infinity: homogeneous points (x, y, z, w) with w ≥ 0.
+//! Straight ways through triangles, both with corners at infinity: homogeneous points (x, y, z, w)
+//! with w ≥ 0.
 
 use umbrage_core::glam::{DMat4, DVec4};
 
-/// What is nearer than this to being otherwise is not decided. Facing is computed in single precision, so this must be well
-/// above its rounding.
+/// What is nearer than this to being otherwise is not decided. Facing is computed in single
+/// precision, so this must be well above its rounding.
 const MARGIN: f64 = 1e-6;
 
 /// A triangle that is crossed more than once at once.
@@ -15,8 +16,9 @@ pub struct Sheet {
     pub times: i32,
 }
 
-/// How often the way from `from` to `to` leaves a body through `sheets`, less how often it enters; `None` where it passes
-/// within [`MARGIN`] of the rim of a sheet, or where a sheet it would meet is that near to either end.
+/// How often the way from `from` to `to` leaves a body through `sheets`, less how often it enters;
+/// `None` where it passes within [`MARGIN`] of the rim of a sheet, or where a sheet it would meet
+/// is that near to either end.
 ///
 /// A sheet all at infinity is met by ways that go there without end, at the very end.
 pub fn crossings(from: DVec4, to: DVec4, sheets: &[Sheet]) -> Option<i32> {
@@ -31,8 +33,9 @@ fn crossing(from: DVec4, to: DVec4, &[a, b, c]: &[DVec4; 3]) -> Option<i32> {
     }
     let plane = plane.normalize();
     let start = plane.dot(from);
-    // Along a way that meets the triangle, these have the sign of `start`. They come from writing a point of the
-    // way, α from + β to, as a sum of the corners, by Cramer's rule, and asking that all five weights be positive.
+    // Along a way that meets the triangle, these have the sign of `start`. They come from writing a
+    // point of the way, α from + β to, as a sum of the corners, by Cramer's rule, and asking that
+    // all five weights be positive.
     let to_sides = [(a, b), (b, c), (c, a)].map(|(a, b)| side(from, to, a, b));
     let is_at_infinity = to.w == 0.0 && a.w + b.w + c.w == 0.0;
     let beyond = if is_at_infinity { start } else { -plane.dot(to) };
@@ -49,7 +52,8 @@ fn plane([a, b, c]: [DVec4; 3]) -> DVec4 {
     -DVec4::from([DVec4::X, DVec4::Y, DVec4::Z, DVec4::W].map(|x| DMat4::from_cols(a, b, c, x).determinant()))
 }
 
-/// On which side the line from `a` to `b` passes that from `from` to `to`; about the sine of what is between.
+/// On which side the line from `a` to `b` passes that from `from` to `to`; about the sine of what
+/// is between.
 fn side(from: DVec4, to: DVec4, a: DVec4, b: DVec4) -> f64 {
     let extent = |a: DVec4, b: DVec4| (a.length_squared() * b.length_squared() - a.dot(b).powi(2)).sqrt();
     DMat4::from_cols(from, to, a, b).determinant() / (extent(from, to) * extent(a, b))

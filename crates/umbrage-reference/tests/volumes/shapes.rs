@@ -4,7 +4,8 @@ use proptest::prelude::*;
 use umbrage_core::glam::{DAffine3, DMat3, DQuat, DVec3, DVec4, EulerRot, Vec3};
 use umbrage_core::{Mesh, primitive};
 
-/// A mesh, where it stands, and a light: a point with w = 1 or a direction to the light with w = 0, in world space.
+/// A mesh, where it stands, and a light: a point with w = 1 or a direction to the light with w = 0,
+/// in world space.
 pub type Setting = (Mesh, DAffine3, DVec4);
 
 /// `mesh` somewhere in some light.
@@ -30,8 +31,8 @@ fn placed() -> impl Strategy<Value = DAffine3> {
     })
 }
 
-/// Triangles between a few vertices, any way round, some at the same place. Vertices on a coarse grid make many of them
-/// parallel, in one plane or without area.
+/// Triangles between a few vertices, any way round, some at the same place. Vertices on a coarse
+/// grid make many of them parallel, in one plane or without area.
 pub fn soup() -> impl Strategy<Value = Mesh> {
     let on_grid = [-3..=3i32, -3..=3, -3..=3].prop_map(|p| Vec3::from(p.map(|x| x as f32 / 3.0)));
     let anywhere = within(1.0).prop_map(|p| p.as_vec3());
@@ -49,7 +50,8 @@ pub fn soup() -> impl Strategy<Value = Mesh> {
     })
 }
 
-/// Up to three bodies, apart or through one another, some of them twice, all of them perhaps inside out.
+/// Up to three bodies, apart or through one another, some of them twice, all of them perhaps inside
+/// out.
 pub fn closed() -> impl Strategy<Value = Mesh> {
     (prop::collection::vec((0..5usize, placed(), any::<bool>()), 1..4), any::<bool>()).prop_map(|(bodies, turns)| {
         let mut mesh = Mesh::default();

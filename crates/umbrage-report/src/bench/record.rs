@@ -51,7 +51,8 @@ pub struct BenchScene {
     pub lights: Vec<BenchLight>,
 }
 
-/// A light that was measured, or several in the same frame: then all numbers are of all of them together.
+/// A light that was measured, or several in the same frame: then all numbers are of all of them
+/// together.
 #[derive(Clone, Debug, Serialize)]
 pub struct BenchLight {
     /// Its number in the scene, from 0; null for several together.
@@ -60,7 +61,8 @@ pub struct BenchLight {
     pub kind: &'static str,
     /// The numbers of the lights that were measured together; null for one alone.
     pub together: Option<Vec<usize>>,
-    /// Flicker of the truth, see [`BenchResult::flicker`]: what the picture's own grid adds. Null where the camera was on no path.
+    /// Flicker of the truth, see [`BenchResult::flicker`]: what the picture's own grid adds. Null
+    /// where the camera was on no path.
     #[serde(serialize_with = "maybe_six")]
     pub flicker_reference: Option<f64>,
     /// How many changes it is the mean of; null where the camera was on no path.
@@ -90,8 +92,8 @@ pub struct BenchResult {
     /// The same over the bare minimum with as many maps of the same size.
     #[serde(serialize_with = "maybe_six")]
     pub vs_bare_minimum: Option<f64>,
-    /// Mean absolute change of visibility from frame to frame at fixed points of the scene, 0 to 1, see [`umbrage_metrics::Flicker`].
-    /// Null where the camera was on no path.
+    /// Mean absolute change of visibility from frame to frame at fixed points of the scene, 0 to 1,
+    /// see [`umbrage_metrics::Flicker`]. Null where the camera was on no path.
     #[serde(serialize_with = "maybe_six")]
     pub flicker: Option<f64>,
     /// The same over that of the truth, at the same points: 1 is steady. Null where that is 0, too.
@@ -102,7 +104,8 @@ pub struct BenchResult {
 /// Times, milliseconds, and what was drawn.
 #[derive(Clone, Debug, Serialize)]
 pub struct BenchCost {
-    /// GPU time of every pass of the frame, also those of the renderer; empty where the adapter keeps no time.
+    /// GPU time of every pass of the frame, also those of the renderer; empty where the adapter
+    /// keeps no time.
     pub passes: Vec<BenchPass>,
     /// GPU time of the technique's own passes together; null where the adapter keeps no time.
     pub gpu_ms: Option<Spread>,

@@ -36,11 +36,13 @@ pub struct Bench {
     pub frames: u32,
     /// What moves from frame to frame.
     pub moving: Moving,
-    /// Where the camera goes; what flickers on the way is measured then, too. Lights and casters stand still.
+    /// Where the camera goes; what flickers on the way is measured then, too. Lights and casters
+    /// stand still.
     pub path: Option<CameraPath>,
     /// Rays for each point of a soft light's reference that flicker is set against.
     pub samples: u32,
-    /// All lights of a scene in the same frame, each with a technique of its own, where it is otherwise one light at a time.
+    /// All lights of a scene in the same frame, each with a technique of its own, where it is
+    /// otherwise one light at a time.
     pub together: bool,
     /// Measures techniques that know it by the single-pass algorithm for all lights at once, too.
     pub overlay: bool,
@@ -51,11 +53,13 @@ pub struct Bench {
 /// Of overlays; costs the same, whatever it is.
 const DARKNESS: f32 = 0.5;
 
-/// Frames before the measurement: pipelines are made in the first, buffers find their size in the second.
+/// Frames before the measurement: pipelines are made in the first, buffers find their size in the
+/// second.
 const WARM_UP: u32 = 3;
 
 impl Bench {
-    /// Measures. Techniques take turns frame by frame, so that a drift of the machine hits all of them alike.
+    /// Measures. Techniques take turns frame by frame, so that a drift of the machine hits all of
+    /// them alike.
     ///
     /// # Errors
     /// What stops everything: sizes beyond the adapter's limit, settings that can't be.
@@ -88,7 +92,8 @@ impl Bench {
         Ok(BenchReport { schema: SCHEMA, made, width, height, frames, moving, path, scenes })
     }
 
-    /// On a path what is fixed in the scene has to stand still, and one technique alone makes the picture.
+    /// On a path what is fixed in the scene has to stand still, and one technique alone makes the
+    /// picture.
     fn check_path(&self) -> Result<(), Error> {
         let wrong = match (self.path, self.frames) {
             (None, _) => return Ok(()),

@@ -1,4 +1,5 @@
-//! Error along a parameter, as pictures: what a sweep of one number looks like where the cost hardly changes.
+//! Error along a parameter, as pictures: what a sweep of one number looks like where the cost
+//! hardly changes.
 
 use crate::sweep::{
     axis::{Axis, short},
@@ -8,10 +9,12 @@ use crate::sweep::{
     record::{SweepCurve, SweepLight, SweepReport, SweepResult},
 };
 
-/// A curve through the results that have this error: the value of the parameter, the error, and the result.
+/// A curve through the results that have this error: the value of the parameter, the error, and the
+/// result.
 type Points<'a> = Vec<(f64, f64, &'a SweepResult)>;
 
-/// Plots of the parameters that were asked for, given with their techniques, for all lights by all measures that they have.
+/// Plots of the parameters that were asked for, given with their techniques, for all lights by all
+/// measures that they have.
 pub(crate) fn all(report: &SweepReport, asked: &[(String, String)]) -> Vec<Plot> {
     let mut parameters: Vec<&str> = asked.iter().map(|(_, parameter)| parameter.as_str()).collect();
     parameters.sort_unstable();

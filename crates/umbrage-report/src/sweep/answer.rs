@@ -14,7 +14,8 @@ pub const BUDGETS: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
 pub(crate) struct Point {
     /// Its number among the results.
     pub result: usize,
-    /// Milliseconds over the floor; below 0 where the technique does less than the floor, or by noise.
+    /// Milliseconds over the floor; below 0 where the technique does less than the floor, or by
+    /// noise.
     pub cost: f64,
     /// By one measure.
     pub error: f64,
@@ -38,7 +39,8 @@ pub struct Answer {
 pub struct Budget {
     /// In bare minimums.
     pub bare_minimums: f64,
-    /// The same in milliseconds over the floor; null where the bare minimum could not be told from the floor.
+    /// The same in milliseconds over the floor; null where the bare minimum could not be told from
+    /// the floor.
     #[serde(serialize_with = "maybe_six")]
     pub over_floor_ms: Option<f64>,
     /// One for each technique.
@@ -64,7 +66,8 @@ pub struct Best {
     pub result: Option<usize>,
 }
 
-/// The points that no other point is as good as in one respect and better than in the other, cheapest first.
+/// The points that no other point is as good as in one respect and better than in the other,
+/// cheapest first.
 pub(crate) fn front(points: &[Point]) -> Vec<Point> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.error.total_cmp(&b.error)));
@@ -77,7 +80,8 @@ pub(crate) fn front(points: &[Point]) -> Vec<Point> {
     front
 }
 
-/// Answers both questions for `techniques`; `of` tells whose a result is, `bare_ms` what the bare minimum costs over the floor.
+/// Answers both questions for `techniques`; `of` tells whose a result is, `bare_ms` what the bare
+/// minimum costs over the floor.
 pub(crate) fn answer(
     measure: &Measure,
     points: &[Point],

@@ -54,7 +54,8 @@ impl Axis {
         (self.low..=self.high).contains(&value)
     }
 
-    /// 1, 2 and 5 of each decade, or more where those are too few, but none where the edge is marked.
+    /// 1, 2 and 5 of each decade, or more where those are too few, but none where the edge is
+    /// marked.
     pub(crate) fn ticks(&self) -> Vec<f64> {
         if self.even {
             return self.even_ticks();

@@ -28,7 +28,8 @@ pub(crate) fn cost(gpu_ms: Option<f64>, prepare_ms: f64, frame_ms: f64) -> Bench
     }
 }
 
-/// A small sweep for tests: technique `a<b` with three sizes, `b` that costs more than it is worth, and one that failed.
+/// A small sweep for tests: technique `a<b` with three sizes, `b` that costs more than it is worth,
+/// and one that failed.
 pub(crate) fn fixture() -> SweepReport {
     let compared = crate::fixture::fixture();
     let scene = compared.scenes.into_iter().next().expect("a scene");

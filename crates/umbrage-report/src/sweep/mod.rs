@@ -1,5 +1,5 @@
-//! Quality at equal cost and cost at equal quality: techniques × settings on each light, scored as [`Compare`](crate::Compare)
-//! does it and timed as [`Bench`](crate::Bench) does.
+//! Quality at equal cost and cost at equal quality: techniques × settings on each light, scored as
+//! [`Compare`](crate::Compare) does it and timed as [`Bench`](crate::Bench) does.
 
 mod along;
 pub(crate) mod answer;

@@ -165,7 +165,8 @@ mod tests {
     #[test]
     fn points_are_where_their_numbers_say_and_tell_their_settings() {
         let svg = all(&fixture()).remove(0).svg;
-        // Results of the one technique whose marks are circles: 2 ms and 0.04, 4 ms and 0.02, 8 ms and 0.01.
+        // Results of the one technique whose marks are circles: 2 ms and 0.04, 4 ms and 0.02, 8 ms
+        // and 0.01.
         let (x, y) = (numbers(&svg, "<circle", "cx"), numbers(&svg, "<circle", "cy"));
         assert_eq!(x.len(), 4, "three points and the legend in\n{svg}");
         assert!((x[1] - x[0] - (x[2] - x[1])).abs() < 0.11 && x[1] > x[0], "{x:?}");

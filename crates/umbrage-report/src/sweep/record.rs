@@ -1,4 +1,5 @@
-//! The data of `sweep.json`. Names are stable; a change that breaks readers raises [`crate::record::SCHEMA`].
+//! The data of `sweep.json`. Names are stable; a change that breaks readers raises
+//! [`crate::record::SCHEMA`].
 
 use crate::{
     bench::record::BenchCost,
@@ -73,17 +74,19 @@ pub struct SweepLight {
     pub answers: Vec<Answer>,
 }
 
-/// Costs that others are set against, measured again with every batch of settings. Spreads are over those batches: where they are
-/// wide, the machine had other things to do.
+/// Costs that others are set against, measured again with every batch of settings. Spreads are over
+/// those batches: where they are wide, the machine had other things to do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Yardsticks {
-    /// What costs are: GPU time and preparation, or the whole frame where the adapter keeps no time.
+    /// What costs are: GPU time and preparation, or the whole frame where the adapter keeps no
+    /// time.
     pub clock: Clock,
     /// The floor, milliseconds; null where nothing was measured.
     pub floor_ms: Option<Spread>,
     /// Texels across the map of the bare minimum: of the sizes measured the one nearest to 1024.
     pub bare_minimum_size: Option<u32>,
-    /// The bare minimum over the floor, milliseconds; null where it could not be told from the floor.
+    /// The bare minimum over the floor, milliseconds; null where it could not be told from the
+    /// floor.
     pub bare_minimum_over_floor_ms: Option<Spread>,
 }
 
@@ -121,7 +124,8 @@ pub struct SweepResult {
     pub frames: u32,
     /// Costs, as `bench` has them; null unless `ok`.
     pub cost: Option<BenchCost>,
-    /// Cost over that of the floor, which took turns with it, milliseconds; below 0 where it does less than the floor, or by noise.
+    /// Cost over that of the floor, which took turns with it, milliseconds; below 0 where it does
+    /// less than the floor, or by noise.
     #[serde(serialize_with = "maybe_six")]
     pub over_floor_ms: Option<f64>,
 }

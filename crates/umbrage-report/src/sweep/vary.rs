@@ -1,4 +1,5 @@
-//! Sweeps as users write them: `pcf:kernel=3|5|7,size=512|1024`, and ranges: `cascaded:lambda=0..1`.
+//! Sweeps as users write them: `pcf:kernel=3|5|7,size=512|1024`, and ranges:
+//! `cascaded:lambda=0..1`.
 
 use crate::{error::Error, round::rounded};
 
@@ -13,13 +14,15 @@ const USUAL: usize = 5;
 pub struct Vary {
     /// Id of the technique.
     pub technique: String,
-    /// Names and values. Of the parameters with several values, the last is the one that curves run along.
+    /// Names and values. Of the parameters with several values, the last is the one that curves run
+    /// along.
     params: Vec<(String, Vec<String>)>,
 }
 
 impl Vary {
-    /// Reads `id:name=value|value,name=value|value`. In place of a value may be a range, `from..to/count`: so many numbers in equal
-    /// steps, 5 where no count is given. Names and values are looked up later, by [`crate::Choice`].
+    /// Reads `id:name=value|value,name=value|value`. In place of a value may be a range,
+    /// `from..to/count`: so many numbers in equal steps, 5 where no count is given. Names and
+    /// values are looked up later, by [`crate::Choice`].
     ///
     /// # Errors
     /// What is not of this form; a parameter that comes twice; more than 1000 combinations.

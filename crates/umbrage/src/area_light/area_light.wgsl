@@ -1,6 +1,6 @@
-// A light in a space of its own: its centre is the origin and it is a sphere of radius 1; or a disc of radius 1, or a square from −1 to
-// 1, in the plane z = 0; or a line from −1 to 1 along x. Light from infinitely far away comes from the directions (x, y, 1) of a
-// disc of radius 1.
+// A light in a space of its own: its centre is the origin and it is a sphere of radius 1; or a disc
+// of radius 1, or a square from −1 to 1, in the plane z = 0; or a line from −1 to 1 along x. Light
+// from infinitely far away comes from the directions (x, y, 1) of a disc of radius 1.
 
 struct AreaLight {
     clip_from_eye: mat4x4f,
@@ -27,8 +27,8 @@ struct AreaLight {
     scale: u32,
     // −1 where light space is mirrored, else 1.
     handed: f32,
-    // Of a split disc the piece: see `Cell` in the core crate. Its rectangle, what its sides start with, the arc's middle, what the arc starts
-    // with, and ∮ X × dX all around.
+    // Of a split disc the piece: see `Cell` in the core crate. Its rectangle, what its sides start
+    // with, the arc's middle, what the arc starts with, and ∮ X × dX all around.
     cell: vec4f,
     cell_sides: vec4f,
     cell_arc: vec4f,

@@ -80,7 +80,8 @@ impl Form {
             }
             LightShape::Rect { position, direction, up, size, .. } => {
                 let face = if has_picture { Face::Picture } else { Face::Square };
-                // To the right for who looks at the emitting side, and down, as rows of pictures go.
+                // To the right for who looks at the emitting side, and down, as rows of pictures
+                // go.
                 Self::flat(face, position, up.cross(direction) * (size.x * 0.5), up * (size.y * -0.5))
             }
             LightShape::Line { from, to } => Self::line((from + to) * 0.5, (to - from) * 0.5),
@@ -148,8 +149,8 @@ impl Form {
         }
     }
 
-    /// The light cut into `count` times `count` pieces, a line into `count`. A light without extent is one piece. Those of a picture come row by
-    /// row, as bright as an even light's.
+    /// The light cut into `count` times `count` pieces, a line into `count`. A light without extent
+    /// is one piece. Those of a picture come row by row, as bright as an even light's.
     pub fn pieces(&self, count: usize) -> Vec<Self> {
         let [x, y, _] = self.half;
         let of = count as f64;
@@ -178,7 +179,8 @@ impl Form {
         Self { corners, cell: Some(cell), weight: cell.around / std::f64::consts::TAU, ..*self }
     }
 
-    /// From where the silhouette of a caster around `place` is seen, in light space, and the direction in which the piece of a sphere has its x.
+    /// From where the silhouette of a caster around `place` is seen, in light space, and the
+    /// direction in which the piece of a sphere has its x.
     pub fn anchor(&self, place: DVec3) -> (DVec3, DVec3) {
         let Some(cell) = &self.cell else { return (DVec3::Z * (1.0 - self.center.w), DVec3::X) };
         let [x, y] = cell.center;
@@ -196,7 +198,8 @@ impl Form {
         if self.center.w == 0.0 { way.extend(0.0) } else { self.center + way.extend(0.0) }
     }
 
-    /// The same for a point that may be at a vertex, see [`off_ties`]. Relative to the eye, ways are rounded twice.
+    /// The same for a point that may be at a vertex, see [`off_ties`]. Relative to the eye, ways
+    /// are rounded twice.
     pub fn off_ties(self, rounding: f64) -> Self {
         Self { center: off_ties(self.center, 2.0 * rounding), ..self }
     }

@@ -1,5 +1,5 @@
-//! What techniques that compute a light's covered share exactly have in common: the light's form in a space of its own, and the
-//! choice of casters.
+//! What techniques that compute a light's covered share exactly have in common: the light's form in
+//! a space of its own, and the choice of casters.
 
 mod form;
 mod select;

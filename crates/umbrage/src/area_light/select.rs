@@ -7,7 +7,8 @@ use umbrage_core::Bounds;
 use umbrage_core::glam::DVec4;
 use umbrage_core::shadow_hull::{Convex, soft_shadow_hull};
 
-/// Leaves in `found` the numbers, in [`Casters::placed`], of the casters whose soft shadows may be seen, in order.
+/// Leaves in `found` the numbers, in [`Casters::placed`], of the casters whose soft shadows may be
+/// seen, in order.
 pub(crate) fn casters_in_view(view: &View<'_>, form: &Form, found: &mut Vec<u32>) {
     found.clear();
     let casters = view.casters;

@@ -85,13 +85,15 @@ impl Form {
     }
 }
 
-/// Size of a buffer that has one place for `scale` pixels along each side, of those whose pixel is in the picture.
+/// Size of a buffer that has one place for `scale` pixels along each side, of those whose pixel is
+/// in the picture.
 pub(crate) fn scaled((width, height): (u32, u32), scale: u32) -> (u32, u32) {
     let of = |pixels: u32| pixels.saturating_sub(1 + scale / 2) / scale + 1;
     (of(width), of(height))
 }
 
-/// Takes the picture's clip space to that of such a buffer, so that the middle of a place is that of the pixel it stands for.
+/// Takes the picture's clip space to that of such a buffer, so that the middle of a place is that
+/// of the pixel it stands for.
 fn raster(size: (u32, u32), scale: u32) -> DMat4 {
     let (width, height) = scaled(size, scale);
     let of = |pixels: u32, places: u32| {

@@ -1,4 +1,5 @@
-//! What any technique costs at least, measured in the same run: the yardsticks that timings are given against.
+//! What any technique costs at least, measured in the same run: the yardsticks that timings are
+//! given against.
 
 use crate::depth_maps::{Blend, Cover, Depth, Map, MapTechnique};
 use crate::{
@@ -35,9 +36,10 @@ pub fn floor(gpu: &Gpu) -> Box<dyn Technique> {
     Box::new(Floor { pipeline })
 }
 
-/// The bare minimum of shadow maps of `size` texels: one depth-only pass over the casters that each view sees, one
-/// full-screen pass with one compare in the first map, no bias at all. Full of acne; its time is what counts. With more than one of `splits`
-/// the views are those of `cascaded` where a light has any.
+/// The bare minimum of shadow maps of `size` texels: one depth-only pass over the casters that each
+/// view sees, one full-screen pass with one compare in the first map, no bias at all. Full of acne;
+/// its time is what counts. With more than one of `splits` the views are those of `cascaded` where
+/// a light has any.
 ///
 /// # Errors
 /// [`Error::Size`] beyond the adapter's limit, and for more splits than there may be.

@@ -16,8 +16,8 @@ pub(crate) struct Light {
 }
 
 impl Placed {
-    /// True where the instance is flat and all receivers are on the light's side of it: a floor that everything stands on
-    /// shadows nothing, and need not be drawn into a map.
+    /// True where the instance is flat and all receivers are on the light's side of it: a floor
+    /// that everything stands on shadows nothing, and need not be drawn into a map.
     pub(crate) fn shadows_nothing(&self, light: &Light) -> bool {
         let Some(plane) = self.plane else { return false };
         let side = plane.dot(light.center);
@@ -27,8 +27,8 @@ impl Placed {
     }
 }
 
-/// The numbers of the instances that the views of a frame draw: filled on the CPU, all in one buffer that is uploaded
-/// once. Keeps its memory from frame to frame.
+/// The numbers of the instances that the views of a frame draw: filled on the CPU, all in one
+/// buffer that is uploaded once. Keeps its memory from frame to frame.
 #[derive(Default)]
 pub(crate) struct InstanceNumbers {
     numbers: Vec<u32>,
@@ -75,8 +75,9 @@ impl InstanceNumbers {
         }
     }
 
-    /// Lists instances, by their places, for one view; but for those that can shadow nothing where a light is given. Solid ones
-    /// that are not among `pierced`, in order, can do without their back faces; all need them where that is `None`.
+    /// Lists instances, by their places, for one view; but for those that can shadow nothing where
+    /// a light is given. Solid ones that are not among `pierced`, in order, can do without their
+    /// back faces; all need them where that is `None`.
     pub fn list(
         &mut self,
         casters: &Casters,
@@ -127,8 +128,9 @@ impl InstanceNumbers {
         }
     }
 
-    /// Draws a list with positions in vertex buffer 0, instance numbers in 1 and attributes in 2, each surface with its
-    /// `pipeline`. Textures are bound as group 2 for alpha-masked meshes, and for all where `textured`.
+    /// Draws a list with positions in vertex buffer 0, instance numbers in 1 and attributes in 2,
+    /// each surface with its `pipeline`. Textures are bound as group 2 for alpha-masked meshes, and
+    /// for all where `textured`.
     pub fn draw<'p>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -148,7 +150,8 @@ impl InstanceNumbers {
             if current != Some(surface) {
                 current = Some(surface);
                 pass.set_pipeline(pipeline(*surface));
-                // Small meshes cost what their vertices cost, and a box has three times as many as places.
+                // Small meshes cost what their vertices cost, and a box has three times as many as
+                // places.
                 let indices = if textured || batch.masked { &casters.indices } else { &casters.welded };
                 pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
             }

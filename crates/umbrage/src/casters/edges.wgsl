@@ -1,5 +1,6 @@
-// Edges of meshes, and how often each of them bounds the shadow of a caster: once for every light-facing triangle that no
-// neighbour cancels, so that any triangle soup casts right (Bergeron 1986; Aldridge and Woods 2004; Kim 2008).
+// Edges of meshes, and how often each of them bounds the shadow of a caster: once for every
+// light-facing triangle that no neighbour cancels, so that any triangle soup casts right (Bergeron
+// 1986; Aldridge and Woods 2004; Kim 2008).
 
 struct Edge {
     start: u32,
@@ -31,14 +32,16 @@ struct Caster {
     // Where its shadow ends, metres from the light; 0: nowhere.
     reach: f32,
     pad: u32,
-    // Wedges, in the light's own space: from where the silhouette is seen, and the x axis of a piece of a sphere.
+    // Wedges, in the light's own space: from where the silhouette is seen, and the x axis of a
+    // piece of a sphere.
     seen_from: vec3f,
     pad_seen_from: f32,
     axis: vec3f,
     pad_axis: f32,
 }
 
-// Only triangles that face away from the light cast the shadow; otherwise all do, turned to the light.
+// Only triangles that face away from the light cast the shadow; otherwise all do, turned to the
+// light.
 const AWAY: u32 = 1u;
 const MIRRORED: u32 = 2u;
 const Z_FAIL: u32 = 4u;
@@ -55,8 +58,8 @@ const SAME_DIRECTION: u32 = 0x80000000u;
 // Edges, and triangles, of a caster that go together; each chunk names its caster.
 const CHUNK: u32 = 64u;
 
-// Words of a list before those that name the caster of each chunk: for each part where its entries start and how many there
-// are. The entries follow the chunks.
+// Words of a list before those that name the caster of each chunk: for each part where its entries
+// start and how many there are. The entries follow the chunks.
 const HEADER: u32 = 8u;
 
 @group(0) @binding(0) var<storage, read> casters: array<Caster>;

@@ -1,4 +1,5 @@
-//! How many triangles lie between the eye and the light: where a count that starts at the eye has to begin.
+//! How many triangles lie between the eye and the light: where a count that starts at the eye has
+//! to begin.
 
 use super::{MeshEdges, Placed};
 use crate::view::View;
@@ -19,16 +20,19 @@ pub(crate) struct EyeTree {
     margin: f64,
 }
 
-/// A segment from the eye to the light in mesh space; w = 0 is the direction to a light infinitely far away.
+/// A segment from the eye to the light in mesh space; w = 0 is the direction to a light infinitely
+/// far away.
 struct Sight {
     eye: DVec3,
     light: DVec4,
-    /// What passes the segment, or an end of it, by no more than this can't be told to be on one side, mesh units.
+    /// What passes the segment, or an end of it, by no more than this can't be told to be on one
+    /// side, mesh units.
     tolerance: f64,
 }
 
-/// How many of a caster's triangles lie between the eye and a light's centre, as [`EyeTree::count`]; nor can it be told of meshes that the
-/// GPU alone knows. `rounding` is that of the view, metres.
+/// How many of a caster's triangles lie between the eye and a light's centre, as
+/// [`EyeTree::count`]; nor can it be told of meshes that the GPU alone knows. `rounding` is that of
+/// the view, metres.
 pub(crate) fn before_eye(
     view: &View<'_>,
     placed: &Placed,
@@ -86,8 +90,8 @@ impl EyeTree {
         found
     }
 
-    /// How many triangles the segment crosses, of those that face the light and of those that face away. `None` where it passes an
-    /// edge or ends at a triangle so closely that rounding decides.
+    /// How many triangles the segment crosses, of those that face the light and of those that face
+    /// away. `None` where it passes an edge or ends at a triangle so closely that rounding decides.
     fn count(&self, mesh: &Mesh, adjacency: &Adjacency, sight: &Sight) -> Option<[u32; 2]> {
         let direction = sight.light.truncate() - sight.eye * sight.light.w;
         let length = direction.length();
@@ -132,7 +136,8 @@ impl Line {
         Self { origin, direction, across: [a, b] }
     }
 
-    /// Whether the line meets the triangle between 0 and `end` metres; `None` where it is within `tolerance` of not being so.
+    /// Whether the line meets the triangle between 0 and `end` metres; `None` where it is within
+    /// `tolerance` of not being so.
     fn crosses(&self, corners: &[DVec3; 3], end: f64, tolerance: f64) -> Option<bool> {
         let seen = corners.map(|c| {
             let p = c - self.origin;

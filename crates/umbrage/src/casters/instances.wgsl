@@ -1,5 +1,5 @@
-// Instances of the scene's meshes: `instances`, which whoever uses this binds. World space here is relative to the scene's
-// origin on the host.
+// Instances of the scene's meshes: `instances`, which whoever uses this binds. World space here is
+// relative to the scene's origin on the host.
 
 struct Instance {
     row0: vec4f,
@@ -19,7 +19,8 @@ fn world_from_mesh(instance: u32, position: vec3f) -> vec3f {
     return vec3f(dot(instances[instance].row0, p), dot(instances[instance].row1, p), dot(instances[instance].row2, p));
 }
 
-// Takes a normal to world space, not normalised: the cofactor matrix, right for any scale and for mirroring.
+// Takes a normal to world space, not normalised: the cofactor matrix, right for any scale and for
+// mirroring.
 fn world_normal_from_mesh(instance: u32, normal: vec3f) -> vec3f {
     let a = instances[instance].row0.xyz;
     let b = instances[instance].row1.xyz;

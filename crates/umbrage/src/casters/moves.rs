@@ -1,6 +1,8 @@
-//! Which casters moved when: so whoever keeps something for those at rest learns of the others alone.
+//! Which casters moved when: so whoever keeps something for those at rest learns of the others
+//! alone.
 
-/// A log in which each caster stands at most twice as often as there are casters, however often it moves.
+/// A log in which each caster stands at most twice as often as there are casters, however often it
+/// moves.
 pub(crate) struct Moves {
     /// Number of moves so far.
     now: u64,

@@ -7,7 +7,8 @@
 // The plane of a triangle that no edge has, such as a copy of another one.
 const LEFT_OUT: vec4f = vec4f(0.0, 0.0, 0.0, -1.0);
 
-// Zero for a triangle without area. Edges are taken relative to the longest coordinate, so that no square underflows.
+// Zero for a triangle without area. Edges are taken relative to the longest coordinate, so that no
+// square underflows.
 fn plane_of(a: vec3f, b: vec3f, c: vec3f) -> vec4f {
     let e = b - a;
     let f = c - a;

@@ -1,5 +1,6 @@
-//! Meshes that joints bend: every instance with a pose has vertices of its own in the shared buffers, which a compute pass fills
-//! when the pose changes. All techniques, and hosts, draw them like any others.
+//! Meshes that joints bend: every instance with a pose has vertices of its own in the shared
+//! buffers, which a compute pass fills when the pose changes. All techniques, and hosts, draw them
+//! like any others.
 
 use super::{Edges, MeshPart};
 use crate::fullscreen::{STORAGE, bind, layout};
@@ -170,8 +171,8 @@ impl Poses {
         Some(posed.planes.get_or_init(|| adjacency.planes_in(&bound.posed(&posed.joints))))
     }
 
-    /// Uploads what never changes. `meshes` are those of the scene and the posed ones; `vertices` their positions and
-    /// attributes.
+    /// Uploads what never changes. `meshes` are those of the scene and the posed ones; `vertices`
+    /// their positions and attributes.
     pub fn prepare(
         &mut self,
         gpu: &Gpu,

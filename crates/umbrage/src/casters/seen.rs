@@ -4,11 +4,13 @@ use super::{Casters, DrawList, InstanceNumbers, Surface, texture_layout, vertex_
 use crate::{gpu::Gpu, passes::Passes};
 use umbrage_core::{CameraView, Frustum};
 
-/// Draws the instances that a camera sees: into a G-buffer, say. Keeps its memory from frame to frame.
+/// Draws the instances that a camera sees: into a G-buffer, say. Keeps its memory from frame to
+/// frame.
 ///
-/// A host's pipelines have its own group 0, then [`SeenCasters::layouts`], and [`SeenCasters::vertex_layouts`]. Their
-/// shaders read positions as location 0, instance numbers as 1, normals as 2 and texture coordinates as 3, and use
-/// the modules `casters` and `materials` to get into the world and to materials.
+/// A host's pipelines have its own group 0, then [`SeenCasters::layouts`], and
+/// [`SeenCasters::vertex_layouts`]. Their shaders read positions as location 0, instance numbers as
+/// 1, normals as 2 and texture coordinates as 3, and use the modules `casters` and `materials` to
+/// get into the world and to materials.
 #[derive(Default)]
 pub struct SeenCasters {
     places: Vec<u32>,

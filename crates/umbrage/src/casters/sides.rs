@@ -11,8 +11,8 @@ pub(crate) struct Sides {
 }
 
 impl Sides {
-    /// A mesh that is squeezed flat counts as just so thick that its fronts and backs are still apart. `None` for one that is
-    /// squeezed to a line or a point, since it shadows nothing.
+    /// A mesh that is squeezed flat counts as just so thick that its fronts and backs are still
+    /// apart. `None` for one that is squeezed to a line or a point, since it shadows nothing.
     pub fn of(world_from_mesh: &DAffine3) -> Option<Self> {
         let m = world_from_mesh.matrix3;
         let columns = [m.x_axis, m.y_axis, m.z_axis];
@@ -25,8 +25,8 @@ impl Sides {
     }
 }
 
-/// What a matrix of rank 2 lacks, a millionth of its size: along the normal of the plane that it maps to, from the direction
-/// that it loses. `None` for lower ranks.
+/// What a matrix of rank 2 lacks, a millionth of its size: along the normal of the plane that it
+/// maps to, from the direction that it loses. `None` for lower ranks.
 fn thickness(m: &DMat3) -> Option<DMat3> {
     let longest_cross = |m: &DMat3| {
         let [a, b, c] = [m.x_axis, m.y_axis, m.z_axis];

@@ -52,7 +52,8 @@ impl Vertices {
     }
 }
 
-/// The vertex buffers of a pass that draws casters: positions and instance numbers, and attributes where `textured`.
+/// The vertex buffers of a pass that draws casters: positions and instance numbers, and attributes
+/// where `textured`.
 pub(crate) fn vertex_layouts(textured: bool) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
     const POSITION: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![0 => Float32x3];
     const NUMBER: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![1 => Uint32];

@@ -1,4 +1,5 @@
-//! What a light's maps are in a frame: the one value that goes from fitting to drawing, to stages and to the look-up.
+//! What a light's maps are in a frame: the one value that goes from fitting to drawing, to stages
+//! and to the look-up.
 
 use super::layers::Layers;
 use umbrage_core::light_view::{FitScene, LightView};

@@ -1,6 +1,7 @@
-//! Depth maps of a light, for every technique that compares with them. What happens to a light in a frame is in four folders:
-//! views are chosen (`fit`), casters are drawn into them (`draw`), passes of a technique's own follow (`stages`), and receivers
-//! are compared with what came out (`lookup`). One value goes from each to the next, [`MapFrame`].
+//! Depth maps of a light, for every technique that compares with them. What happens to a light in a
+//! frame is in four folders: views are chosen (`fit`), casters are drawn into them (`draw`), passes
+//! of a technique's own follow (`stages`), and receivers are compared with what came out
+//! (`lookup`). One value goes from each to the next, [`MapFrame`].
 
 mod draw;
 mod fit;

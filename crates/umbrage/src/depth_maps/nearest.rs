@@ -5,8 +5,8 @@ use umbrage_core::Bounds;
 use umbrage_core::glam::DVec3;
 use umbrage_core::light_view::LightView;
 
-/// The largest depth that the map of a view can hold, from the boxes around the casters. Of views from a point: near / distance, not
-/// along the axis.
+/// The largest depth that the map of a view can hold, from the boxes around the casters. Of views
+/// from a point: near / distance, not along the axis.
 pub(super) fn nearest(view: &LightView, casters: &[Bounds]) -> f32 {
     let deepest = match view.is_perspective() {
         true => near(view) / nearest_distance(view, casters),
@@ -15,7 +15,8 @@ pub(super) fn nearest(view: &LightView, casters: &[Bounds]) -> f32 {
     deepest.clamp(0.0, 1.0) as f32
 }
 
-/// From the light to the nearest caster that the view may show, at least that of the near plane; infinity without any.
+/// From the light to the nearest caster that the view may show, at least that of the near plane;
+/// infinity without any.
 pub(super) fn nearest_distance(view: &LightView, casters: &[Bounds]) -> f64 {
     let (frustum, light) = (view.frustum(), view.eye());
     let seen = casters.iter().filter(|b| frustum.may_see(b));

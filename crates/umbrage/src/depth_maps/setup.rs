@@ -1,4 +1,5 @@
-//! What techniques with maps are asked for: the settings that they share, and what one technique hands to another.
+//! What techniques with maps are asked for: the settings that they share, and what one technique
+//! hands to another.
 
 use crate::{choices, settings};
 use umbrage_core::light_view::{Cascades, Focus, Omni, Warp};

@@ -19,8 +19,9 @@ use crate::{
 };
 use umbrage_core::light_view::LightView;
 
-/// A technique that draws depth maps and looks them up in one full-screen pass. Techniques differ in the shader, which needs the module
-/// `map_visibility` and says which share of a point is lit, and in the stage between the two, if they have one.
+/// A technique that draws depth maps and looks them up in one full-screen pass. Techniques differ
+/// in the shader, which needs the module `map_visibility` and says which share of a point is lit,
+/// and in the stage between the two, if they have one.
 pub struct MapTechnique {
     setup: MapSetup,
     frame: MapFrame,
@@ -34,7 +35,8 @@ pub struct MapTechnique {
 }
 
 impl MapTechnique {
-    /// `reach_texels`: how far the shader looks around a receiver in the map. `constants` override the shader's.
+    /// `reach_texels`: how far the shader looks around a receiver in the map. `constants` override
+    /// the shader's.
     pub fn new(
         gpu: &Gpu,
         setup: &MapSetup,

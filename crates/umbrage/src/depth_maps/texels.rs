@@ -21,8 +21,8 @@ impl InTexels {
     }
 }
 
-/// Of a view from a point: the texel straight ahead, and what a texel spans of the plane, that at distance 1 ahead or a
-/// paraboloid's.
+/// Of a view from a point: the texel straight ahead, and what a texel spans of the plane, that at
+/// distance 1 ahead or a paraboloid's.
 pub(super) fn texels_in_plane(view: &LightView) -> [DVec2; 2] {
     match &view.paraboloid {
         Some(paraboloid) => {
@@ -36,7 +36,8 @@ pub(super) fn texels_in_plane(view: &LightView) -> [DVec2; 2] {
     }
 }
 
-/// Of a perspective view the texel straight ahead and the tangent that a texel spans, of a parallel one the metres it spans.
+/// Of a perspective view the texel straight ahead and the tangent that a texel spans, of a parallel
+/// one the metres it spans.
 pub(super) fn axis(map_from_world: &DMat4) -> DVec4 {
     let [across, down, ahead] = [0, 1, 3].map(|i| map_from_world.row(i).truncate());
     let straight = DVec2::new(across.dot(ahead), down.dot(ahead));

@@ -1,16 +1,17 @@
-//! How wide filters are made cheap: the moments are reduced first, and blurred and looked up on the coarser grid.
+//! How wide filters are made cheap: the moments are reduced first, and blurred and looked up on the
+//! coarser grid.
 
 /// What makes up a filter of some radius.
 ///
-/// A mean over 2ⁿ × 2ⁿ texels, looked up with a quadratic B-spline, has a variance of 4ⁿ / 3 − 1 / 12 squared texels along
-/// each axis. What is missing up to the next n is the part of a few binomial taps on the coarser grid. So a wider filter is as
-/// many taps on fewer texels.
+/// A mean over 2ⁿ × 2ⁿ texels, looked up with a quadratic B-spline, has a variance of 4ⁿ / 3 − 1 /
+/// 12 squared texels along each axis. What is missing up to the next n is the part of a few
+/// binomial taps on the coarser grid. So a wider filter is as many taps on fewer texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Blur {
     /// How often the map is halved.
     pub(super) level: u32,
-    /// Weights of the middle tap, its neighbours and theirs; the outer ones are 0 where the reduction alone is wide
-    /// enough.
+    /// Weights of the middle tap, its neighbours and theirs; the outer ones are 0 where the
+    /// reduction alone is wide enough.
     pub(super) taps: [f64; 3],
     /// Of the whole filter along each axis, squared texels.
     pub(super) variance: f64,
@@ -24,7 +25,8 @@ const MOST_OF_THREE: f64 = 0.7;
 const MOST_OF_FIVE: f64 = 1.0;
 
 impl Blur {
-    /// As wide as a disc of this radius, in texels of a map of `size`; as near to that as the map allows.
+    /// As wide as a disc of this radius, in texels of a map of `size`; as near to that as the map
+    /// allows.
     pub(super) fn new(radius: f64, size: u32) -> Self {
         // A disc has a quarter of its squared radius along each axis.
         let wanted = radius * radius * 0.25;
@@ -47,7 +49,8 @@ impl Blur {
         Self { level, taps, variance: of_level(level) + missing * coarse }
     }
 
-    /// Whether moments are taken from several texels around: cheaper than more passes over a whole map.
+    /// Whether moments are taken from several texels around: cheaper than more passes over a whole
+    /// map.
     pub(super) fn is_in_take(&self) -> bool {
         self.level == 0 && self.taps[1] > 0.0
     }
@@ -58,7 +61,8 @@ impl Blur {
     }
 }
 
-/// The largest variance for which a level is the nearest: up to half-way to the next where taps do not get there.
+/// The largest variance for which a level is the nearest: up to half-way to the next where taps do
+/// not get there.
 fn widest_of(level: u32) -> f64 {
     if level > 0 { of_level(level + 1) } else { 0.5 * (of_level(0) + MOST_OF_THREE + of_level(1)) }
 }
@@ -72,8 +76,8 @@ fn of_level(level: u32) -> f64 {
 mod tests {
     use super::*;
 
-    /// Variance of the filter as the shaders do it, along one axis: the look-up's weights around every place of a coarse texel,
-    /// spread over taps and texels.
+    /// Variance of the filter as the shaders do it, along one axis: the look-up's weights around
+    /// every place of a coarse texel, spread over taps and texels.
     fn measured(blur: &Blur, place: f64) -> f64 {
         let width = f64::from(1 << blur.level);
         let f = place - 0.5;

@@ -1,7 +1,8 @@
-//! Filterable shadow maps: what is stored are moments of depth, which can be averaged before anything is compared.
+//! Filterable shadow maps: what is stored are moments of depth, which can be averaged before
+//! anything is compared.
 //!
-//! The stage between the maps and their look-up takes moments, reduces and blurs them, and makes mip levels. What the moments
-//! are, and what they say of the share of light, is the technique's.
+//! The stage between the maps and their look-up takes moments, reduces and blurs them, and makes
+//! mip levels. What the moments are, and what they say of the share of light, is the technique's.
 
 mod blur;
 mod made;
@@ -129,8 +130,9 @@ impl MomentStage {
         Self::make(gpu, Blur::new(filtering.radius, size), recipe, filtering.mips, None)
     }
 
-    /// With filters that follow the light, none narrower than `radius`. Their look-up finds taps and bounds before the moments, see
-    /// `depth_maps/stages/soft_taps.wgsl` and `moments_soft.wgsl`.
+    /// With filters that follow the light, none narrower than `radius`. Their look-up finds taps
+    /// and bounds before the moments, see `depth_maps/stages/soft_taps.wgsl` and
+    /// `moments_soft.wgsl`.
     pub(crate) fn soft(gpu: &Gpu, size: u32, filtering: &Filtering, recipe: &Recipe, taps: Taps) -> Self {
         let blur = Blur::new(filtering.radius, size);
         Self::make(gpu, blur, recipe, true, Some(TapStage::light(gpu, taps, true)))

@@ -1,5 +1,5 @@
-// Linear depth of filterable maps: 0 at the nearest caster, 1 at the farthest receiver, so that moments have the precision where
-// depths differ.
+// Linear depth of filterable maps: 0 at the nearest caster, 1 at the farthest receiver, so that
+// moments have the precision where depths differ.
 
 struct Moments {
     // Stored depth s to linear depth: (x + y s) / (z + w s).

@@ -7,8 +7,9 @@
 // Takes coarser levels where a pixel covers many texels.
 override MIPS: bool = true;
 
-// The 3 × 3 texels around a point and the weights of a quadratic B-spline: smooth where bilinear weights show the grid, and of the
-// same variance everywhere, ¼. At the border of the map, the texels there count for those beyond.
+// The 3 × 3 texels around a point and the weights of a quadratic B-spline: smooth where bilinear
+// weights show the grid, and of the same variance everywhere, ¼. At the border of the map, the
+// texels there count for those beyond.
 struct Spline {
     columns: vec3i,
     rows: vec3i,
@@ -94,8 +95,8 @@ fn texels_of_pixel(point: MapPoint, pixel: Pixel) -> f32 {
     return area / sqrt(0.5 * (sum + sqrt(max(sum * sum - 4.0 * area * area, 0.0))));
 }
 
-// The level whose filter is as wide as that of level 0 and the pixel together. Level n has a variance of 4ⁿ / 3 − 1 / 12, a pixel
-// one of 1 / 12 of its square.
+// The level whose filter is as wide as that of level 0 and the pixel together. Level n has a
+// variance of 4ⁿ / 3 − 1 / 12, a pixel one of 1 / 12 of its square.
 fn level_of_pixel(point: MapPoint, pixel: Pixel) -> f32 {
     if !MIPS {
         return 0.0;

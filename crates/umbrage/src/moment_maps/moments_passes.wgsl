@@ -1,5 +1,6 @@
 // needs: fullscreen, moments_depth
-// From a depth map to its filtered moments: take moments, halve, blur along each axis. The technique gives `moments_of`.
+// From a depth map to its filtered moments: take moments, halve, blur along each axis. The
+// technique gives `moments_of`.
 
 @group(0) @binding(0) var<uniform> moments: Moments;
 @group(0) @binding(1) var map_level: texture_depth_2d;

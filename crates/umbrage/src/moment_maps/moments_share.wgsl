@@ -1,5 +1,6 @@
 // needs: map_lookup, moments_depth
-// What filtered moments say of a receiver. The technique gives `moments_of`, beside a look-up that binds `moments`.
+// What filtered moments say of a receiver. The technique gives `moments_of`, beside a look-up that
+// binds `moments`.
 
 // Shares of light up to this count as none.
 override BLEEDING: f32 = 0.0;
@@ -7,9 +8,10 @@ override BLEEDING: f32 = 0.0;
 // What a plane falls to at most that leaves the light's view.
 const LEAST_STORED: f32 = 1e-30;
 
-// Moments come in levels, each half as fine as the one before. Level 0 of a view fills a layer; the others share one with those of a second
-// view, stacked in its left or right half. So a level of a pixel's own is a place and no level of the texture: the software driver
-// takes those from the first of 2 × 2 pixels, which may look somewhere else, or nowhere.
+// Moments come in levels, each half as fine as the one before. Level 0 of a view fills a layer; the
+// others share one with those of a second view, stacked in its left or right half. So a level of a
+// pixel's own is a place and no level of the texture: the software driver takes those from the
+// first of 2 × 2 pixels, which may look somewhere else, or nowhere.
 struct Level {
     layer: u32,
     corner: vec2i,
@@ -33,7 +35,8 @@ fn moments_at(level: Level, texel: vec2i) -> vec4f {
     return from_stored(textureLoad(moment_map, level.corner + texel, level.layer, 0));
 }
 
-// What was looked up, and how many texels away from the receiver: where the map ends, filters stay inside.
+// What was looked up, and how many texels away from the receiver: where the map ends, filters stay
+// inside.
 struct Found {
     moments: vec4f,
     offset: vec2f,
@@ -53,7 +56,8 @@ fn linear_point(point: MapPoint, offset: vec2f, crease: f32) -> LinearPoint {
     return LinearPoint(linear_depth(moments, stored), slope * linear_depth_change(moments, stored));
 }
 
-// The largest share of a distribution of this mean and variance that can lie at `depth` or farther (Chebyshev).
+// The largest share of a distribution of this mean and variance that can lie at `depth` or farther
+// (Chebyshev).
 fn largest_share(mean: f32, variance: f32, depth: f32) -> f32 {
     let nearer = max(depth - mean, 0.0);
     return variance / (variance + nearer * nearer);

@@ -1,5 +1,6 @@
 // needs: soft_taps, moments_share
-// Looks filtered moments up for filters that follow the light's size: group 2, beside taps and bounds.
+// Looks filtered moments up for filters that follow the light's size: group 2, beside taps and
+// bounds.
 
 @group(2) @binding(2) var<uniform> moments: Moments;
 @group(2) @binding(3) var moment_map: MomentArray;
@@ -7,7 +8,8 @@
 // Variance that bilinear weights and the boxes that were averaged add, squared texels of the level.
 const OF_LEVEL: f32 = 0.25;
 
-// Of what is found on levels of this squared width, in texels of level 0; squared texels of the map along each axis.
+// Of what is found on levels of this squared width, in texels of level 0; squared texels of the map
+// along each axis.
 fn variance_of_level(squared_width: f32) -> f32 {
     return moments.variance + OF_LEVEL * moments.scale * moments.scale * squared_width;
 }

@@ -1,5 +1,6 @@
-// Moments in 16 bits each: even steps from 0 to 1, finer near 1 than a half float's. Every device can draw into integers, and
-// filtering is done by hand anyway. `packed` and `unpacked` of the technique make the most of the steps.
+// Moments in 16 bits each: even steps from 0 to 1, finer near 1 than a half float's. Every device
+// can draw into integers, and filtering is done by hand anyway. `packed` and `unpacked` of the
+// technique make the most of the steps.
 
 alias MomentTexture = texture_2d<u32>;
 alias MomentArray = texture_2d_array<u32>;

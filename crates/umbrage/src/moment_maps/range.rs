@@ -5,8 +5,8 @@ use crate::view::View;
 use umbrage_core::glam::DVec3;
 use umbrage_core::{Bounds, Frustum};
 
-/// Stored depth s to linear depth, (x + y s) / (z + w s): 0 at the nearest caster that the light's views see, 1 at the
-/// farthest receiver.
+/// Stored depth s to linear depth, (x + y s) / (z + w s): 0 at the nearest caster that the light's
+/// views see, 1 at the farthest receiver.
 pub(super) fn linear_from_stored(view: &View<'_>, maps: &MapFrame) -> [f32; 4] {
     let Some(first) = maps.views.first().filter(|_| maps.is_from_a_point()) else {
         // Parallel views are linear already and reach from the first caster to the last receiver.

@@ -12,11 +12,12 @@ pub(crate) const SHARED: Shared = Shared { module: "receivers", layouts: &[Eye::
 
 /// Depth (and normals) of the visible surfaces, made once per size.
 ///
-/// Depth has 24 bits or floats and one sample a pixel; of a format with stencil, the view is of the depth alone. All
-/// surfaces in it that shadows should fall on have to be among the [`crate::Casters`], those that cast none too: maps are
-/// fitted to them. Normals are `R32Uint`: the geometric normal in world space,
-/// turned to the eye, packed by the function in [`crate::wgsl::PACK_NORMAL`]. Without them normals come from the depth itself, which
-/// costs a little and is less exact at the edges of surfaces.
+/// Depth has 24 bits or floats and one sample a pixel; of a format with stencil, the view is of the
+/// depth alone. All surfaces in it that shadows should fall on have to be among the
+/// [`crate::Casters`], those that cast none too: maps are fitted to them. Normals are `R32Uint`:
+/// the geometric normal in world space, turned to the eye, packed by the function in
+/// [`crate::wgsl::PACK_NORMAL`]. Without them normals come from the depth itself, which costs a
+/// little and is less exact at the edges of surfaces.
 #[derive(Clone, Debug)]
 pub struct Receivers {
     /// Pixels across and down.
@@ -43,8 +44,9 @@ impl Receivers {
         Self { size, has_normals: normal.is_some(), bind_group, depth: depth.clone(), stencil: None }
     }
 
-    /// Lends the depth buffer's stencil: `view` is of the same texture with both aspects. Techniques that count in the stencil
-    /// then need no copy of the depth; what was in the stencil is lost.
+    /// Lends the depth buffer's stencil: `view` is of the same texture with both aspects.
+    /// Techniques that count in the stencil then need no copy of the depth; what was in the stencil
+    /// is lost.
     pub fn with_stencil(mut self, view: &wgpu::TextureView) -> Self {
         self.stencil = Some(view.clone());
         self

@@ -1,7 +1,8 @@
-// Directions in 32 bits: the octahedron's unfolded faces, 16 bits each way. The lowest bit is taken for a flag.
+// Directions in 32 bits: the octahedron's unfolded faces, 16 bits each way. The lowest bit is taken
+// for a flag.
 
-// `n`: geometric normal in world space, turned to the eye. `casts`: whether the surface casts shadows, so that it is in
-// its own shadow where it faces away from the light.
+// `n`: geometric normal in world space, turned to the eye. `casts`: whether the surface casts
+// shadows, so that it is in its own shadow where it faces away from the light.
 fn pack_normal(n: vec3f, casts: bool) -> u32 {
     let flat_normal = n / (abs(n.x) + abs(n.y) + abs(n.z));
     let folded = (1.0 - abs(flat_normal.yx)) * select(vec2f(-1.0), vec2f(1.0), flat_normal.xy >= vec2f(0.0));

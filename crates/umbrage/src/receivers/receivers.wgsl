@@ -2,7 +2,8 @@
 // The visible surfaces: where they are relative to the eye, and which way they face.
 
 struct Eye {
-    // Camera's normalised device coordinates to space relative to the eye, with world axes, homogeneous.
+    // Camera's normalised device coordinates to space relative to the eye, with world axes,
+    // homogeneous.
     eye_from_ndc: mat4x4f,
     ndc_from_pixel: vec2f,
     // What the depth buffer holds where nothing was drawn.
@@ -33,9 +34,9 @@ fn position_eye(eye: Eye, pixel: vec2f, depth: f32) -> vec3f {
     return p.xyz / p.w;
 }
 
-// How far, in metres, a position may be off because the depth buffer rounds: one step of single precision (or of 24 bits)
-// around `depth`. Next to nothing for a reversed projection, a millimetre and more for others. `inverse_w` is one over
-// the position's w before division.
+// How far, in metres, a position may be off because the depth buffer rounds: one step of single
+// precision (or of 24 bits) around `depth`. Next to nothing for a reversed projection, a millimetre
+// and more for others. `inverse_w` is one over the position's w before division.
 fn position_rounding(eye: Eye, depth: f32, inverse_w: f32) -> f32 {
     let inverse = abs(inverse_w);
     // A normal taken from neighbouring depths is off by their rounding, too.
@@ -43,7 +44,8 @@ fn position_rounding(eye: Eye, depth: f32, inverse_w: f32) -> f32 {
     return step * eye.reach * inverse * (1.0 + depth * abs(eye.eye_from_ndc[2].w) * inverse);
 }
 
-// From `here` to the neighbour along `step`, nothing where that is off the picture or shows no surface.
+// From `here` to the neighbour along `step`, nothing where that is off the picture or shows no
+// surface.
 fn toward(eye: Eye, pixel: vec2f, here: vec3f, step: vec2i) -> vec3f {
     let size = vec2i(textureDimensions(receiver_depth));
     let at = vec2i(pixel) + step;
@@ -57,8 +59,8 @@ fn toward(eye: Eye, pixel: vec2f, here: vec3f, step: vec2i) -> vec3f {
     return position_eye(eye, vec2f(at) + 0.5, depth) - here;
 }
 
-// Change of position along `step` on the surface itself: towards the neighbour that is nearer, since the other one may
-// be across an edge.
+// Change of position along `step` on the surface itself: towards the neighbour that is nearer,
+// since the other one may be across an edge.
 fn along_surface(eye: Eye, pixel: vec2f, here: vec3f, step: vec2i) -> vec3f {
     let after = toward(eye, pixel, here, step);
     let before = -toward(eye, pixel, here, -step);

@@ -74,7 +74,8 @@ impl Setting for bool {
     }
 }
 
-/// A choice between `words`, the default first. Called once a parameter, which lives as long as the program.
+/// A choice between `words`, the default first. Called once a parameter, which lives as long as the
+/// program.
 #[doc(hidden)]
 pub fn choice(default: &'static str, words: &[&'static str]) -> ParamKind {
     let others = words.iter().copied().filter(|word| *word != default);
@@ -88,15 +89,16 @@ pub fn named(field: &str, name: &str) -> bool {
     field.len() == name.len() && as_written.eq(name.bytes())
 }
 
-/// A parameter from the parts of its declaration. Called once a parameter, which lives as long as the program.
+/// A parameter from the parts of its declaration. Called once a parameter, which lives as long as
+/// the program.
 #[doc(hidden)]
 pub fn param(field: &str, help: &[&str], unit: &'static str, kind: ParamKind, live: bool) -> Param {
     let lines: Vec<&str> = help.iter().map(|line| line.trim()).collect();
     Param { name: field.replace('_', "-").leak(), help: lines.join(" ").leak(), unit, kind, live }
 }
 
-/// Parameters in the order of their weight: what the first group declares first (a map's size), what the technique
-/// declares itself, then what it shares with others.
+/// Parameters in the order of their weight: what the first group declares first (a map's size),
+/// what the technique declares itself, then what it shares with others.
 #[doc(hidden)]
 pub fn ordered(own: Vec<Param>, groups: &[&[Param]]) -> Vec<Param> {
     let shared: Vec<Param> = groups.concat();
@@ -106,8 +108,8 @@ pub fn ordered(own: Vec<Param>, groups: &[&[Param]]) -> Vec<Param> {
 
 /// Declares settings once: struct, defaults, ranges, units, help, reading and writing by name.
 ///
-/// The doc comment of a field is its help. `#[flatten]` fields come first and are groups declared elsewhere.
-/// `live` says that a technique may take a new value over without being made anew.
+/// The doc comment of a field is its help. `#[flatten]` fields come first and are groups declared
+/// elsewhere. `live` says that a technique may take a new value over without being made anew.
 ///
 /// ```
 /// umbrage::settings! {
@@ -195,7 +197,8 @@ macro_rules! settings {
     };
 }
 
-/// Declares an enum for a field of [`settings!`](crate::settings!), with the word that users write for each variant.
+/// Declares an enum for a field of [`settings!`](crate::settings!), with the word that users write
+/// for each variant.
 #[macro_export]
 macro_rules! choices {
     (

@@ -1,7 +1,8 @@
 //! Settings of techniques: typed where a technique reads them, by name where users write them.
 //!
-//! A technique declares its settings once, with [`settings!`](crate::settings!); [`Configure`] makes the technique of
-//! them. [`Settings`] is any technique's settings, for the command line, the window and the comparison.
+//! A technique declares its settings once, with [`settings!`](crate::settings!); [`Configure`]
+//! makes the technique of them. [`Settings`] is any technique's settings, for the command line, the
+//! window and the comparison.
 
 #[doc(hidden)]
 pub mod declare;
@@ -23,13 +24,15 @@ pub trait Configure: Group + Clone + Default + Debug + Send + Sync + 'static {
     /// What the technique answers; as its [`Technique::answer`].
     const ANSWER: Answer = Answer::Visibility;
 
-    /// Makes the technique; values are in range and the device has what [`Configure::INFO`] asks for.
+    /// Makes the technique; values are in range and the device has what [`Configure::INFO`] asks
+    /// for.
     ///
     /// # Errors
     /// What the settings ask of this device in vain.
     fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error>;
 
-    /// The same as a filter for maps that another technique fits, where [`TechniqueInfo::filter`] says so.
+    /// The same as a filter for maps that another technique fits, where [`TechniqueInfo::filter`]
+    /// says so.
     fn as_filter(&self) -> Option<&dyn Filter> {
         None
     }
@@ -42,8 +45,8 @@ pub trait Configure: Group + Clone + Default + Debug + Send + Sync + 'static {
     /// Makes the technique.
     ///
     /// # Errors
-    /// [`Error::Setting`] names a field out of its range, [`Error::Unsupported`] a feature or limit that the device
-    /// lacks; [`Error::Size`] is for sizes beyond its limits.
+    /// [`Error::Setting`] names a field out of its range, [`Error::Unsupported`] a feature or limit
+    /// that the device lacks; [`Error::Size`] is for sizes beyond its limits.
     fn make(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
         check(Self::INFO.id, Self::params(), self)?;
         Self::INFO.check(gpu)?;
@@ -157,8 +160,8 @@ impl Settings {
         Ok(())
     }
 
-    /// Whether `other` is of the same technique and differs in [live](Param::live) parameters only, so that
-    /// [`Technique::set`] may take it over.
+    /// Whether `other` is of the same technique and differs in [live](Param::live) parameters only,
+    /// so that [`Technique::set`] may take it over.
     pub fn differs_live(&self, other: &Self) -> bool {
         let same = |p: &Param| p.live || self.get(p.name) == other.get(p.name);
         self.info.id == other.info.id && self.info.params().iter().all(same)

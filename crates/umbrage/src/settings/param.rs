@@ -14,7 +14,8 @@ pub struct Param {
     pub unit: &'static str,
     /// Type, range and default.
     pub kind: ParamKind,
-    /// A technique may take a new value over without being made anew, see [`Technique::set`](crate::Technique::set).
+    /// A technique may take a new value over without being made anew, see
+    /// [`Technique::set`](crate::Technique::set).
     pub live: bool,
 }
 
@@ -49,7 +50,8 @@ pub enum ParamKind {
         /// Value where none is set.
         default: bool,
     },
-    /// The id of a technique that looks up maps which another technique fits, see [`TechniqueInfo::filter`](crate::TechniqueInfo::filter).
+    /// The id of a technique that looks up maps which another technique fits, see
+    /// [`TechniqueInfo::filter`](crate::TechniqueInfo::filter).
     Filter {
         /// Only techniques that can look up warped maps.
         warped: bool,
@@ -112,7 +114,8 @@ impl ParamKind {
         }
     }
 
-    /// The words of a choice or the ids of filters, the default first; empty for numbers and switches.
+    /// The words of a choice or the ids of filters, the default first; empty for numbers and
+    /// switches.
     pub fn words(&self, registry: &crate::Registry) -> Vec<&'static str> {
         match *self {
             Self::Choice { values } => values.to_vec(),

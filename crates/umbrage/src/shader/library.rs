@@ -24,5 +24,6 @@ pub(super) const LIBRARY: &[Module] = modules! {
         moments_soft;
 };
 
-/// How a host packs the normals of [`crate::Receivers`]: WGSL with `pack_normal(normal, casts) -> u32`.
+/// How a host packs the normals of [`crate::Receivers`]: WGSL with `pack_normal(normal, casts) ->
+/// u32`.
 pub const PACK_NORMAL: &str = include_str!("../receivers/pack_normal.wgsl");

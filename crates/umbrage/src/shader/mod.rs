@@ -1,4 +1,5 @@
-//! Shaders: a file of WGSL, the modules that its first line needs, and what the host has to agree on with it.
+//! Shaders: a file of WGSL, the modules that its first line needs, and what the host has to agree
+//! on with it.
 
 mod library;
 mod needs;
@@ -7,7 +8,8 @@ use crate::gpu::Gpu;
 pub use library::PACK_NORMAL;
 pub use needs::{Module, Unresolved};
 
-/// One shader. Its source and its modules are plain WGSL whose first line may say which modules they need:
+/// One shader. Its source and its modules are plain WGSL whose first line may say which modules
+/// they need:
 ///
 /// ```wgsl
 /// // needs: map_visibility, light_kernel
@@ -16,12 +18,13 @@ pub use needs::{Module, Unresolved};
 pub struct Shader {
     /// For messages and labels.
     pub name: &'static str,
-    /// The file that nothing else needs; a line of needs alone where the shader is one of several modules' combinations.
+    /// The file that nothing else needs; a line of needs alone where the shader is one of several
+    /// modules' combinations.
     pub source: &'static str,
     /// The technique's own modules, in which needs are looked for before those of the library.
     pub modules: &'static [Module],
-    /// Host structs that the shader reads; a test compares them with the WGSL of the same name. Those of the library's modules
-    /// need not be named again.
+    /// Host structs that the shader reads; a test compares them with the WGSL of the same name.
+    /// Those of the library's modules need not be named again.
     pub layouts: &'static [HostLayout],
     /// Constants that host and shader share; the same test compares them.
     pub constants: &'static [HostConstant],
@@ -87,8 +90,8 @@ pub struct HostLayout {
     pub size: usize,
 }
 
-/// Name and value of a number that host and shader share. In WGSL it is a constant or the default of an override, or the size in bytes of
-/// a struct of that name.
+/// Name and value of a number that host and shader share. In WGSL it is a constant or the default
+/// of an override, or the size in bytes of a struct of that name.
 pub type HostConstant = (&'static str, f64);
 
 /// What the host has to agree on with a module of the library, whatever shader needs it.
@@ -102,8 +105,8 @@ pub struct Shared {
     pub constants: &'static [HostConstant],
 }
 
-/// Declares a struct that a shader reads, together with its [`HostLayout`], the constant `LAYOUT`. The crate that uses this
-/// depends on `bytemuck` with its feature `derive`.
+/// Declares a struct that a shader reads, together with its [`HostLayout`], the constant `LAYOUT`.
+/// The crate that uses this depends on `bytemuck` with its feature `derive`.
 #[macro_export]
 macro_rules! shader_struct {
     (

@@ -1,4 +1,5 @@
-//! Modules of WGSL and what they need: the first line of a file names other modules, and a shader is all of them in order.
+//! Modules of WGSL and what they need: the first line of a file names other modules, and a shader
+//! is all of them in order.
 
 use super::library::LIBRARY;
 

@@ -13,7 +13,8 @@ pub(crate) struct Throw {
     /// From where its silhouette is seen: a place of the light, or a direction to it (w = 0).
     pub light: DVec4,
     pub rule: Rule,
-    /// A body with holes: what it covers with its near side and with its far side is nearly the same and counts once.
+    /// A body with holes: what it covers with its near side and with its far side is nearly the
+    /// same and counts once.
     pub is_body: bool,
     /// Wedges only: counted from infinity instead of from the eye.
     pub from_infinity: bool,
@@ -21,11 +22,13 @@ pub(crate) struct Throw {
     pub z_fail: bool,
     pub light_cap: bool,
     pub dark_cap: bool,
-    /// The plane n · p = w where the shadow may end since nothing that is seen lies beyond, in world space; zero for none.
+    /// The plane n · p = w where the shadow may end since nothing that is seen lies beyond, in
+    /// world space; zero for none.
     pub end: DVec4,
     /// Where the shadow ends otherwise, metres from the light; 0 for nowhere.
     pub reach: f32,
-    /// Wedges only, in the light's own space: from where the silhouette is seen, and the x axis of a piece of a sphere.
+    /// Wedges only, in the light's own space: from where the silhouette is seen, and the x axis of
+    /// a piece of a sphere.
     pub anchor: [Vec3; 2],
 }
 
@@ -65,7 +68,8 @@ const COUNT_FROM_INFINITY: u32 = 64;
 /// Edges, or triangles, of one caster that go together.
 pub(super) const CHUNK: u32 = 64;
 
-/// Words that a list starts with: for each part where its entries start and how many there are. The chunks follow.
+/// Words that a list starts with: for each part where its entries start and how many there are. The
+/// chunks follow.
 pub(super) const HEADER: u32 = 8;
 
 /// The same for `casters/edges.wgsl`.

@@ -1,8 +1,9 @@
 // needs: instances, edges
 // Shadow volumes as triangles: sides between an edge and its shadow, light caps, dark caps.
 //
-// All corners come from the same two functions, so that neighbours share them to the last bit and volumes are closed. An
-// instance draws 64 sides of four vertices, or 64 caps of six; what is left of the last one falls off the screen.
+// All corners come from the same two functions, so that neighbours share them to the last bit and
+// volumes are closed. An instance draws 64 sides of four vertices, or 64 caps of six; what is left
+// of the last one falls off the screen.
 
 struct Extrusion {
     clip_from_world: mat4x4f,
@@ -41,8 +42,8 @@ fn light_corner(caster: u32, vertex: u32) -> vec3f {
     return world_from_mesh(casters[caster].instance, vec3f(positions[at], positions[at + 1u], positions[at + 2u]));
 }
 
-// Where the shadow of a corner ends: at the plane that nothing seen lies beyond, at the caster's reach, or infinitely far
-// away (w = 0; GG 9.5.3).
+// Where the shadow of a corner ends: at the plane that nothing seen lies beyond, at the caster's
+// reach, or infinitely far away (w = 0; GG 9.5.3).
 fn dark_corner(caster: u32, p: vec3f) -> vec4f {
     let away = p * extrusion.light.w - extrusion.light.xyz;
     let end = casters[caster].end;
@@ -57,14 +58,16 @@ fn dark_corner(caster: u32, p: vec3f) -> vec4f {
     return vec4f(extrusion.light.xyz + away * (max(reach, length(away)) / length(away)), 1.0);
 }
 
-// Caps, and sides at their edge, coincide with the surface that casts them, which has to be in front whatever was rounded.
+// Caps, and sides at their edge, coincide with the surface that casts them, which has to be in
+// front whatever was rounded.
 fn on_screen(p: vec4f, times: f32) -> Corner {
     let at = extrusion.clip_from_world * p;
     return Corner(vec4f(at.xy, at.z + extrusion.away.x * at.z + extrusion.away.y * at.w, at.w), times);
 }
 
-// Corner 0…3 of a quad: end, start, start's shadow, end's shadow, counter-clockwise seen from outside. With parallel light both
-// shadows are one point, and the quad is drawn as one triangle (GG 9.5.1).
+// Corner 0…3 of a quad: end, start, start's shadow, end's shadow, counter-clockwise seen from
+// outside. With parallel light both shadows are one point, and the quad is drawn as one triangle
+// (GG 9.5.1).
 fn side_corner(entry: u32, corner: u32) -> Corner {
     let slot = entry >> 2u;
     let caster = list[HEADER + slot / CHUNK];
@@ -136,8 +139,9 @@ fn side_at(slot: u32, before: u32) -> u32 {
     return select(NO_ENTRY, side_entry(slot, times), u32(abs(times)) > before);
 }
 
-// Every edge is drawn, and falls together to nothing where it bounds no shadow: the degenerate quads of PX 3.3.3, except that
-// edges are fetched instead of copied. The second part is for sides that count twice.
+// Every edge is drawn, and falls together to nothing where it bounds no shadow: the degenerate
+// quads of PX 3.3.3, except that edges are fetched instead of copied. The second part is for sides
+// that count twice.
 @vertex
 fn any_side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) chunk: u32) -> Corner {
     let entry = side_at(chunk * CHUNK + (vertex % PART) / 4u, vertex / PART);

@@ -1,5 +1,6 @@
 // needs: edges
-// Finds the edges that bound shadows and the triangles that cap them, and lists them for indirect draws.
+// Finds the edges that bound shadows and the triangles that cap them, and lists them for indirect
+// draws.
 
 struct FindSilhouettes {
     edge_chunks: u32,

@@ -1,8 +1,10 @@
-//! The edges and triangles of casters that bound their shadows under one light, found on the CPU, in vertex shaders, or by
-//! compute and drawn indirectly; with the vertex shaders that extrude them.
+//! The edges and triangles of casters that bound their shadows under one light, found on the CPU,
+//! in vertex shaders, or by compute and drawn indirectly; with the vertex shaders that extrude
+//! them.
 //!
-//! Casters are described in [`Caster`]s, their edges in chunks of 64 that name their caster. What is drawn is a list of
-//! 32-bit entries, so that the CPU touches no edge in the compute path, whatever the number of casters.
+//! Casters are described in [`Caster`]s, their edges in chunks of 64 that name their caster. What
+//! is drawn is a list of 32-bit entries, so that the CPU touches no edge in the compute path,
+//! whatever the number of casters.
 
 mod buffers;
 mod caster;
@@ -73,7 +75,8 @@ impl Silhouettes {
         }
     }
 
-    /// The layout of the bind group that the vertex shaders take as group 0; group 1 is [`Edges::draw_layout`].
+    /// The layout of the bind group that the vertex shaders take as group 0; group 1 is
+    /// [`Edges::draw_layout`].
     pub fn layout(&self) -> &wgpu::BindGroupLayout {
         &self.draw_layout
     }
@@ -83,8 +86,8 @@ impl Silhouettes {
         if self.extrude == Extrude::Vertex { ["any_side", "any_cap"] } else { ["listed_side", "listed_cap"] }
     }
 
-    /// Describes the casters of a frame: first all that are counted from the eye, then the others. With the camera's
-    /// matrix goes whether near is 1. `light`: its centre, homogeneous.
+    /// Describes the casters of a frame: first all that are counted from the eye, then the others.
+    /// With the camera's matrix goes whether near is 1. `light`: its centre, homogeneous.
     ///
     /// # Errors
     /// [`Error::Size`] where there are too many edges.
@@ -157,7 +160,8 @@ impl Silhouettes {
         }
     }
 
-    /// What compute shaders take as group 0 to read casters and what was found; group 1 is [`Edges::draw`].
+    /// What compute shaders take as group 0 to read casters and what was found; group 1 is
+    /// [`Edges::draw`].
     pub fn found_by_gpu(&self) -> Option<&wgpu::BindGroup> {
         self.buffers.as_ref().map(|b| &b.draw)
     }
@@ -192,7 +196,8 @@ impl Silhouettes {
         self.work.looked_at()
     }
 
-    /// Numbers of sides (from the eye, from infinity) and caps that were found, where the CPU found them.
+    /// Numbers of sides (from the eye, from infinity) and caps that were found, where the CPU found
+    /// them.
     pub fn found(&self) -> Option<[u32; 3]> {
         (self.extrude == Extrude::Cpu).then(|| self.work.counts())
     }

@@ -10,7 +10,8 @@ pub(super) const VERTICES: u32 = 512;
 /// How sides and caps are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Shape {
-    /// Sides are triangles that meet infinitely far away, those counted from the eye and those counted from infinity.
+    /// Sides are triangles that meet infinitely far away, those counted from the eye and those
+    /// counted from infinity.
     pub parallel: [bool; 2],
     /// Some cap is a dark one.
     pub dark_caps: bool,
@@ -47,8 +48,8 @@ impl Shape {
     }
 }
 
-/// For 64 sides of four corners two triangles each; then one triangle each, since both shadows are one point. For 64 caps of six
-/// corners both triangles each; then the light caps alone.
+/// For 64 sides of four corners two triangles each; then one triangle each, since both shadows are
+/// one point. For 64 caps of six corners both triangles each; then the light caps alone.
 pub(super) fn indices() -> Vec<u16> {
     let each =
         |stride: u16, corners: &'static [u16]| (0..64).flat_map(move |i| corners.iter().map(move |c| i * stride + c));

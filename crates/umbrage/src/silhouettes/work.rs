@@ -13,8 +13,8 @@ use umbrage_core::silhouette::{Rule, facing, multiplicity};
 #[derive(Default)]
 pub(super) struct Work {
     pub casters: Vec<Caster>,
-    /// The header; the caster of each chunk of edges, then of triangles; and where the CPU finds silhouettes, the lists of
-    /// the three parts, one after the other as `room` lays them out.
+    /// The header; the caster of each chunk of edges, then of triangles; and where the CPU finds
+    /// silhouettes, the lists of the three parts, one after the other as `room` lays them out.
     pub list: Vec<u32>,
     chunks: u32,
     /// Chunks of edges of casters counted from the eye, of all casters.

@@ -1,4 +1,5 @@
-//! A map that is kept shows what a map that is drawn anew in every frame would, and costs nothing where nothing changes.
+//! A map that is kept shows what a map that is drawn anew in every frame would, and costs nothing
+//! where nothing changes.
 
 use crate::common::{gpu, pairs, scene};
 use umbrage::core::glam::{DAffine3, DVec3};
@@ -47,7 +48,8 @@ impl Pair {
         }
     }
 
-    /// Draws a frame with both and compares; returns the draws of the one that keeps maps, and of the other.
+    /// Draws a frame with both and compares; returns the draws of the one that keeps maps, and of
+    /// the other.
     fn check(&mut self, what: &str) -> [u32; 2] {
         self.frame += 1;
         let [kept, drawn] = [&mut self.kept, &mut self.drawn].map(|renderer| {
@@ -66,7 +68,8 @@ fn movable(scene: &Scene) -> Vec<usize> {
     (0..scene.instances.len()).filter(|i| scene.instances[*i].casts && !is_flat(i)).collect()
 }
 
-/// Everything that may happen to a scene; returns the draws of a frame in which nothing did, with and without maps that are kept.
+/// Everything that may happen to a scene; returns the draws of a frame in which nothing did, with
+/// and without maps that are kept.
 fn live_through(pair: &mut Pair) -> [u32; 2] {
     let movable = movable(&pair.scene);
     let size = pair.scene.bounds().size().length();

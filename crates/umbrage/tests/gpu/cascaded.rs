@@ -1,4 +1,5 @@
-//! Splits under every filter: one split is the filter's own map, more of them err less, and steady ones stand still.
+//! Splits under every filter: one split is the filter's own map, more of them err less, and steady
+//! ones stand still.
 
 use crate::common::{against_truth, gpu, renderer, scene, visibility};
 use umbrage::core::{Camera, Image, Light, LightShape, Scene, glam::DVec3};

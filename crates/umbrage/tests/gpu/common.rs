@@ -69,14 +69,16 @@ pub fn score_frame(renderer: &mut Renderer, scene: &Scene, light: usize, size: (
     score(&Comparison { produced: &produced, reference, mask: &mask, hard: None, reach: Some(&reach) }).unwrap()
 }
 
-/// The pixels to compare: those that are scored, not beside the edge of a surface and not `far` metres away.
+/// The pixels to compare: those that are scored, not beside the edge of a surface and not `far`
+/// metres away.
 pub fn mask(truth: &Truth, geometry: &Geometry, far: f32) -> Image<bool> {
     let beside_edges = discontinuities(&geometry.depth, &geometry.model);
     let (width, height) = geometry.depth.size();
     Image::from_fn(width, height, |x, y| truth.scored[(x, y)] && !beside_edges[(x, y)] && geometry.depth[(x, y)] < far)
 }
 
-/// The folder of shared data. Tests that need it are ignored by name; `cargo xtask test` runs them where it is there.
+/// The folder of shared data. Tests that need it are ignored by name; `cargo xtask test` runs them
+/// where it is there.
 pub fn shared() -> PathBuf {
     let beside = || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared"));
     let folder = std::env::var_os("UMBRAGE_SHARED").map_or_else(beside, PathBuf::from);

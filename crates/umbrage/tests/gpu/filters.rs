@@ -17,10 +17,12 @@ fn filters() -> impl Iterator<Item = &'static TechniqueInfo> {
     techniques().iter().copied().filter(|info| info.params().iter().any(|p| p.name == "size"))
 }
 
-/// Those that make penumbrae as wide as the light does, and none where it has no width; with their settings.
+/// Those that make penumbrae as wide as the light does, and none where it has no width; with their
+/// settings.
 const FOLLOW_THE_LIGHT: [(&str, &str); 2] = [("pcss", ""), ("pcss-jitter", "")];
 
-/// All techniques with maps as they are by themselves, and those that can follow the light doing so.
+/// All techniques with maps as they are by themselves, and those that can follow the light doing
+/// so.
 fn variants() -> impl Iterator<Item = (&'static TechniqueInfo, &'static str)> {
     let follows = |info: &TechniqueInfo| info.params().iter().any(|p| p.name == "softness");
     filters().flat_map(move |info| [(info, "")].into_iter().chain(follows(info).then_some((info, "softness=light"))))
@@ -36,7 +38,8 @@ fn under(shape: LightShape) -> Scene {
     Scene { lights: vec![Light::new(shape)], ..scene("primitives", 0.3) }
 }
 
-/// A light of every soft kind around a point or, from there, in a direction, as wide as `size` metres or radians.
+/// A light of every soft kind around a point or, from there, in a direction, as wide as `size`
+/// metres or radians.
 fn soft(position: DVec3, size: f64) -> Vec<LightShape> {
     let direction = DVec3::new(-0.3, -0.9, -0.2).normalize();
     let up = direction.any_orthonormal_vector();
@@ -220,8 +223,8 @@ fn lights_without_extent_throw_hard_shadows() {
         let of = |id: &str, set: &str| visibility(&mut renderer(&gpu, &scene, 0, id, set, size), &scene);
         let hard = of("shadow-map", set);
         assert!(hard.data.iter().filter(|v| **v == 0.0).count() > 1000, "{kind}: hardly a shadow");
-        // Maps of other techniques have other borders, so that their texels cut edges elsewhere: by about as much as the hard
-        // shadow map itself is off the truth.
+        // Maps of other techniques have other borders, so that their texels cut edges elsewhere: by
+        // about as much as the hard shadow map itself is off the truth.
         let limit = 1.5 * against_truth(&gpu, &scene, 0, "shadow-map", set, size, 1).mae;
         for (id, variant) in FOLLOW_THE_LIGHT {
             let off: f64 =
@@ -243,13 +246,14 @@ struct Means {
     lit: f64,
 }
 
-/// Pixels that are so far from edges that filters of a fixed width do not get there with their defaults: 8 texels, as seen on
-/// the screen, and 8 pixels.
+/// Pixels that are so far from edges that filters of a fixed width do not get there with their
+/// defaults: 8 texels, as seen on the screen, and 8 pixels.
 fn far(reference: &Image<f32>, mask: &Image<bool>, two_texels: &Image<f32>) -> Image<bool> {
     interior(reference, mask, Some(&two_texels.map(|r| (4.0 * r).max(8.0))))
 }
 
-/// Means of one technique with maps of several sizes over the pixels that are far from edges for the first of them.
+/// Means of one technique with maps of several sizes over the pixels that are far from edges for
+/// the first of them.
 fn means(gpu: &Gpu, scene: &Scene, light: usize, (id, variant): (&str, &str), sizes: [u32; 2]) -> [Means; 2] {
     let (width, height) = (320, 240);
     let tracer = Tracer::new(scene);
@@ -303,8 +307,8 @@ fn what_is_far_from_edges_does_not_depend_on_the_size_of_the_map() {
     no_faults(wrong);
 }
 
-/// With the settings that it has by itself: mean absolute error, percentages correct among interior pixels and among those
-/// that are [`far`].
+/// With the settings that it has by itself: mean absolute error, percentages correct among interior
+/// pixels and among those that are [`far`].
 fn scores(gpu: &Gpu, scene: &Scene, light: usize, (id, variant): (&str, &str), stored: &StoredReference) -> [f64; 3] {
     let mut renderer = renderer(gpu, scene, light, id, variant, size(stored));
     let produced = visibility(&mut renderer, scene);
@@ -328,9 +332,9 @@ fn scores(gpu: &Gpu, scene: &Scene, light: usize, (id, variant): (&str, &str), s
     [mean(&mask, &off), percent(&interior), percent(&far(reference, &mask, &reach))]
 }
 
-/// Where a method's own limit keeps its interior below what all others reach: picture, technique, what it has at least.
-/// City: a texel is 0.4 m, and the filter some of them. Overlap: two layers, of which a map has one. Line: a light without
-/// width, so that a tap sees it or does not.
+/// Where a method's own limit keeps its interior below what all others reach: picture, technique,
+/// what it has at least. City: a texel is 0.4 m, and the filter some of them. Overlap: two layers,
+/// of which a map has one. Line: a light without width, so that a tap sees it or does not.
 const LIMITS: &[(&str, &str, f64)] = &[
     ("overlap", "evsm softness=light", 98.0),
     ("boxes-line", "evsm softness=light", 99.1),

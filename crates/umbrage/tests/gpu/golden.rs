@@ -1,9 +1,10 @@
-//! Every technique against the ground truth, scene by scene. An error above its bound fails; so does one far below it,
-//! since then the bound (and the technique's README) has to follow.
+//! Every technique against the ground truth, scene by scene. An error above its bound fails; so
+//! does one far below it, since then the bound (and the technique's README) has to follow.
 
 use crate::common::{against_truth, gpu, scene};
 
-/// Scene and its detail, light, technique, settings, mean absolute error ×10⁻⁴ at 320×240, least interior per cent.
+/// Scene and its detail, light, technique, settings, mean absolute error ×10⁻⁴ at 320×240, least
+/// interior per cent.
 type Row = (&'static str, f32, usize, &'static str, &'static str, f64, f64);
 
 const GOLDEN: &[Row] = &[
@@ -48,7 +49,8 @@ const GOLDEN: &[Row] = &[
     ("duelling-frusta", 1.0, 0, "plane-optimal", "", 58.0, 99.95),
     ("lantern", 1.0, 0, "psm", "", 22.0, 99.95),
     ("atrium", 0.3, 0, "psm", "", 49.0, 99.9),
-    // Exact but for pixels that rounding decides: two of them. Terrain is left out, its leaves cast whole quads.
+    // Exact but for pixels that rounding decides: two of them. Terrain is left out, its leaves cast
+    // whole quads.
     ("primitives", 1.0, 0, "volume", "", 0.3, 100.0),
     ("primitives", 1.0, 0, "volume", "count=z-fail", 0.3, 100.0),
     ("atrium", 0.3, 0, "volume", "", 0.3, 100.0),
@@ -66,7 +68,8 @@ const GOLDEN: &[Row] = &[
     ("duelling-frusta", 1.0, 0, "wedges", "", 0.3, 100.0),
 ];
 
-/// So few pixels more or less do not make an error another one: what is stated as next to nothing may be nothing.
+/// So few pixels more or less do not make an error another one: what is stated as next to nothing
+/// may be nothing.
 const PIXELS: f64 = 3.0;
 
 #[test]

@@ -2,8 +2,8 @@
 
 use crate::wedges::vs_hard;
 
-/// Where casters overlap, where the silhouette changes from one end of the light to the other, and where neither is so: 256 samples of the light are
-/// off by their number alone.
+/// Where casters overlap, where the silhouette changes from one end of the light to the other, and
+/// where neither is so: 256 samples of the light are off by their number alone.
 const MASKED: &[&str] = &["overlap", "models", "boxes-rect", "boxes-disc", "fence"];
 
 #[test]

@@ -1,4 +1,5 @@
-//! Devices with WebGPU's default limits and no optional feature: every technique works there, or says what it lacks.
+//! Devices with WebGPU's default limits and no optional feature: every technique works there, or
+//! says what it lacks.
 
 use crate::common::{gpu, pairs, scene};
 use crate::wedges::difference;

@@ -1,4 +1,5 @@
-//! What `pcf-blur` does to a picture: a Gaussian where there is something to blur, along surfaces or with the paper's halo.
+//! What `pcf-blur` does to a picture: a Gaussian where there is something to blur, along surfaces
+//! or with the paper's halo.
 
 use crate::common::{gpu, mask, renderer, visibility};
 use umbrage::Gpu;
@@ -31,7 +32,8 @@ fn floor_from_above() -> Scene {
     boxes(light, camera, &shapes.map(|middle| (middle, DVec3::new(0.9, 0.1, 0.5))))
 }
 
-/// The Gaussian by its definition, over rows and then columns of a picture that continues as its border.
+/// The Gaussian by its definition, over rows and then columns of a picture that continues as its
+/// border.
 fn gaussian(picture: &Image<f32>, radius: f64) -> Image<f32> {
     let reach = radius.floor() as i64;
     let weights = |i: i64| (-2.0 * (i * i) as f64 / (radius * radius)).exp();
@@ -103,7 +105,8 @@ fn post_before_shadow() -> Scene {
     boxes(light, camera, &[wall, post])
 }
 
-/// Mean error of scored pixels within `reach` pixels of a silhouette but not beside a shadow's edge, which blurs in any case.
+/// Mean error of scored pixels within `reach` pixels of a silhouette but not beside a shadow's
+/// edge, which blurs in any case.
 fn error_beside_silhouettes(gpu: &Gpu, scene: &Scene, set: &str, reach: i64) -> f64 {
     let size = (320, 240);
     let tracer = Tracer::new(scene);

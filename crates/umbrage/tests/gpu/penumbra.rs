@@ -8,19 +8,21 @@ use umbrage::{Gpu, Technique, find, light_samples};
 use umbrage_reference::closed_form::{disc_above_plane, past_half_plane, rect_above_plane, sphere_above_plane};
 use umbrage_renderer::{LightPass, Renderer};
 
-/// The picture: columns go across the edge, rows along it, and the penumbra is a quarter of the columns wide.
+/// The picture: columns go across the edge, rows along it, and the penumbra is a quarter of the
+/// columns wide.
 const COLUMNS: u32 = 256;
 const ROWS: u32 = 64;
 const PENUMBRA: f64 = 64.0;
 
-/// Columns that are averaged before levels are looked for: a tile of noise, which rows alone do not average.
+/// Columns that are averaged before levels are looked for: a tile of noise, which rows alone do not
+/// average.
 const SMOOTHED: usize = 8;
 
 /// Allowed error of width and place, as a share of the width.
 const TOLERANCE: f64 = 0.1;
 
-/// A light over a half-plane over a floor. The edge is on the line x = 0, y = `height`, the half-plane at x < 0, all
-/// turned around the vertical by `turn` radians with the light.
+/// A light over a half-plane over a floor. The edge is on the line x = 0, y = `height`, the
+/// half-plane at x < 0, all turned around the vertical by `turn` radians with the light.
 struct Case {
     name: String,
     light: LightShape,
@@ -123,8 +125,8 @@ fn penumbra_of(profile: &[f64]) -> Penumbra {
     Penumbra { middle: crossing(profile, 0.5), width: crossing(profile, 0.9) - crossing(profile, 0.1) }
 }
 
-/// Where the profile rises through `level`: the middle between the first and the last time that it does, should noise
-/// make it several. Not a number where it never does.
+/// Where the profile rises through `level`: the middle between the first and the last time that it
+/// does, should noise make it several. Not a number where it never does.
 fn crossing(profile: &[f64], level: f64) -> f64 {
     let rises = profile.windows(2).enumerate().filter(|(_, pair)| pair[0] < level && pair[1] >= level);
     let places: Vec<f64> = rises.map(|(i, pair)| i as f64 + (level - pair[0]) / (pair[1] - pair[0])).collect();
@@ -142,8 +144,8 @@ fn results(cases: &[Case], mut make: impl FnMut() -> Box<dyn Technique>, gpu: &G
     cases.iter().map(&mut row).collect()
 }
 
-/// Heights of the light, of the edge as a share of that, and sizes of the light as a share; with an offset of the light
-/// and a turn that change from one to the next.
+/// Heights of the light, of the edge as a share of that, and sizes of the light as a share; with an
+/// offset of the light and a turn that change from one to the next.
 fn sizes() -> impl Iterator<Item = (f64, f64, f64, DVec3, f64)> {
     let lights = [2.0, 7.0].into_iter();
     let all =
@@ -156,7 +158,8 @@ fn sizes() -> impl Iterator<Item = (f64, f64, f64, DVec3, f64)> {
     })
 }
 
-/// A case for each of [`sizes`], the light made from its size, place and the way that its axes are turned.
+/// A case for each of [`sizes`], the light made from its size, place and the way that its axes are
+/// turned.
 fn cases(kind: &str, light: impl Fn(f64, DVec3, DMat3) -> LightShape) -> Vec<Case> {
     sizes()
         .map(|(height, size, above, at, turn)| {
@@ -259,8 +262,8 @@ fn a_filter_of_constant_width_has_others() {
 fn follows_the_light(cases: &[Case]) {
     let gpu = gpu();
     let mut wrong = Vec::new();
-    // A grid of 5 × 5 taps, which `pcss` looks for blockers with by itself, gets the width of 2 of 102 cases wrong by 0.12 and
-    // 0.13: both lights are large for their distance.
+    // A grid of 5 × 5 taps, which `pcss` looks for blockers with by itself, gets the width of 2 of
+    // 102 cases wrong by 0.12 and 0.13: both lights are large for their distance.
     for (id, set) in [("pcss", "search=7"), ("pcss-jitter", "")] {
         let info = find(id).unwrap();
         let make = || info.settings(&pairs(set)).unwrap().make(&gpu).unwrap();

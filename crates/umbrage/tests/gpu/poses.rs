@@ -1,4 +1,5 @@
-//! Meshes that joints bend, in every kind of technique: posed on the GPU, against the truth of the same moment.
+//! Meshes that joints bend, in every kind of technique: posed on the GPU, against the truth of the
+//! same moment.
 
 use crate::common::{gpu, renderer, scene, score_frame, shared, visibility};
 use umbrage::core::Scene;
@@ -6,7 +7,8 @@ use umbrage_metrics::Scores;
 
 const SIZE: (u32, u32) = (240, 180);
 
-/// Scores a technique in a scene that was uploaded in one pose and has been bent into that of `scene`.
+/// Scores a technique in a scene that was uploaded in one pose and has been bent into that of
+/// `scene`.
 fn score_bent(start: &Scene, scene: &Scene, light: usize, id: &str, set: &str, samples: u32) -> Scores {
     let gpu = gpu();
     let mut renderer = renderer(&gpu, start, light, id, set, SIZE);

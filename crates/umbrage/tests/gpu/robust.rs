@@ -118,7 +118,8 @@ fn a_light_that_is_not_there_is_an_error() {
 #[test]
 fn lights_in_casters_and_far_away_are_no_trouble() {
     let gpu = gpu();
-    // Inside the box; far above, where only the floor below the box is dark; in the floor, which lights nothing above it.
+    // Inside the box; far above, where only the floor below the box is dark; in the floor, which
+    // lights nothing above it.
     let center = DVec3::new(0.0, 1.0, 0.0);
     for (position, floor) in [(center, 0.0), (DVec3::new(0.0, 1e6, 0.0), 1.0), (DVec3::new(0.0, -1e6, 0.0), 0.0)] {
         let scene = box_scene(LightShape::Point { position });
@@ -131,7 +132,8 @@ fn lights_in_casters_and_far_away_are_no_trouble() {
 
 #[test]
 fn a_thin_gap_keeps_its_shadow_with_every_choice_of_faces() {
-    // A plate just above a floor under a lamp far up: what counts as the same surface must not swallow the gap.
+    // A plate just above a floor under a lamp far up: what counts as the same surface must not
+    // swallow the gap.
     let gpu = gpu();
     let mut scene = box_scene(LightShape::Point { position: DVec3::new(3.0, 35.0, 2.0) });
     scene.instances[1].world_from_mesh = DAffine3::from_scale_rotation_translation(

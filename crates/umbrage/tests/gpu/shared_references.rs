@@ -77,8 +77,8 @@ fn brute_force(gpu: &Gpu, scene: &Scene, light: usize, samples: u32, size: (u32,
 #[test]
 #[ignore = "needs the shared references"]
 fn brute_force_comes_close_to_the_truth() {
-    // Every soft light on one scene, and casters above each other. Few samples keep it quick; the README of the
-    // technique has the numbers for 256.
+    // Every soft light on one scene, and casters above each other. Few samples keep it quick; the
+    // README of the technique has the numbers for 256.
     let chosen = |scene: &Scene, light: usize| {
         let boxes = scene.name.starts_with("boxes") || scene.name.contains("overlap") || scene.name.contains("above");
         scene.lights[light].shape.kind().is_soft() && boxes

@@ -4,8 +4,9 @@ use crate::common::{against_truth, gpu};
 use umbrage::core::glam::{DAffine3, DMat3, DVec3};
 use umbrage::core::{Camera, Light, LightShape, Material, Scene, primitive};
 
-/// Boxes as they are, mirrored, squeezed flat, sheared, open at the bottom and wound inwards; one of them is around the second light,
-/// and one so near to it that its front is within the near plane.
+/// Boxes as they are, mirrored, squeezed flat, sheared, open at the bottom and wound inwards; one
+/// of them is around the second light, and one so near to it that its front is within the near
+/// plane.
 fn boxes(lamp: DVec3) -> Scene {
     let mut scene = Scene::default();
     let [floor, cube] = [primitive::plane(), primitive::cube()].map(|mesh| scene.add_mesh(mesh));
@@ -24,7 +25,8 @@ fn boxes(lamp: DVec3) -> Scene {
     scene.place(cube, material, at(-4.0, 2.0, DMat3::from_cols(DVec3::X, DVec3::new(0.9, 0.6, 0.0), DVec3::Z)));
     scene.place(open, material, at(4.0, 2.0, DMat3::from_rotation_z(0.5)));
     scene.place(inwards, material, at(2.0, 5.0, DMat3::IDENTITY));
-    // A box around the lamp keeps all but what it lets out: nothing. One beside it is nearer than its near plane.
+    // A box around the lamp keeps all but what it lets out: nothing. One beside it is nearer than
+    // its near plane.
     let beside = lamp + DVec3::new(0.5 + 1e-5, 0.0, 0.0);
     scene.place(cube, material, DAffine3 { matrix3: scaled(1.0, 0.3, 0.3), translation: beside });
     scene.camera = Camera { eye: DVec3::new(0.0, 9.0, 12.0), near: 0.1, ..Camera::default() };

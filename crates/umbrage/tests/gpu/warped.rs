@@ -25,7 +25,8 @@ fn warped_maps_are_better_than_uniform_ones_of_the_same_size() {
         city.lights[0].shape = LightShape::Directional { direction: direction.normalize(), angle_deg: 0.0 };
         let score = |id: &str, set: &str| against_truth(&gpu, &city, 0, id, set, (320, 240), 1);
         let uniform = score("pcf", "kernel=2x2,size=1024").mae;
-        // Shadowed walls get stripes of light in `lispsm` with light from behind, as its README says.
+        // Shadowed walls get stripes of light in `lispsm` with light from behind, as its README
+        // says.
         let warps = [("psm", 99.8), ("psm:cube", 99.8), ("lispsm", 99.5), ("plane-optimal", 99.8)];
         for (id, least_interior) in warps {
             let (id, set) = id.strip_suffix(":cube").map_or((id, ""), |id| (id, "cube=on"));
@@ -36,7 +37,8 @@ fn warped_maps_are_better_than_uniform_ones_of_the_same_size() {
                 s.mae
             );
             println!("{row}");
-            // With the light in the eyes nothing can be gained; `lispsm` warps by a formula and may lose there.
+            // With the light in the eyes nothing can be gained; `lispsm` warps by a formula and may
+            // lose there.
             let most = match (name, id) {
                 ("straight ahead", "lispsm") => f64::INFINITY,
                 ("straight ahead", _) => 1.1 * uniform + SLACK,

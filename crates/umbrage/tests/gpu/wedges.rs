@@ -7,7 +7,8 @@ use umbrage::core::{Image, Instance, Light, LightShape, Scene, primitive};
 use umbrage_metrics::{Comparison, score};
 use umbrage_reference::{Options, Tracer};
 
-/// Name of a stored scene and its light, most error as a share of that of the hard shadow; less than a third of it fails, too.
+/// Name of a stored scene and its light, most error as a share of that of the hard shadow; less
+/// than a third of it fails, too.
 const STORED: &[(&str, usize, f64)] = &[
     ("boxes-sphere", 0, 0.008),
     ("boxes-rect", 0, 0.01),
@@ -149,7 +150,8 @@ fn no_pixel_stands_alone_from_a_hundred_sides() {
         let geometry = tracer.geometry(&scene.camera, size.0, size.1);
         let options = Options { samples: 64, ..Options::default() };
         let truth = tracer.visibility(&geometry, &scene.lights[0], &scene.textures, &options, &|_, _| ());
-        // So that a penumbra one pixel wide counts as alone there, too, though 64 rays find it to 0.03 only.
+        // So that a penumbra one pixel wide counts as alone there, too, though 64 rays find it to
+        // 0.03 only.
         let of_truth = speckles(&truth.visibility, 0.2);
         let scored = crate::common::mask(&truth, &geometry, f32::INFINITY);
         let wrong: Vec<_> = alone.iter().filter(|p| scored[**p] && !of_truth.contains(p)).collect();
@@ -247,7 +249,8 @@ fn pieces_of_every_light_add_up_to_it() {
     let gpu = gpu();
     for shape in shapes {
         let text = format!("{shape:?}");
-        // A flat caster looks the same from all of the light, so that pieces have to give what the whole does.
+        // A flat caster looks the same from all of the light, so that pieces have to give what the
+        // whole does.
         let scene = star(shape);
         let drawn = |set: &str| visibility(&mut renderer(&gpu, &scene, 0, "wedges", set, (160, 120)), &scene);
         let whole = drawn("");

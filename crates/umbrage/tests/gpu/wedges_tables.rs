@@ -1,4 +1,5 @@
-//! Shares of a light that `wedges` looks up: against formulas, and those of pictures against ground truth.
+//! Shares of a light that `wedges` looks up: against formulas, and those of pictures against ground
+//! truth.
 
 use crate::common::{against_truth, gpu, renderer, visibility};
 use crate::wedges::{difference, star, vs_hard};
@@ -25,7 +26,8 @@ fn tables_of_discs_are_near_the_formula() {
             .map(|c| visibility(&mut renderer(&gpu, &scene, 0, "wedges", &format!("coverage={c}"), SIZE), &scene));
         let off = || formula.data.iter().zip(&table.data).map(|(a, b)| f64::from((a - b).abs()));
         let mae = difference(&formula, &table);
-        // Next to where a corner of the caster is in line with the light's centre the angle changes within a cell of the table.
+        // Next to where a corner of the caster is in line with the light's centre the angle changes
+        // within a cell of the table.
         let far = off().filter(|d| *d > 0.01).count();
         println!("{text}: mae {mae:.6}, worst {:.4}, {far} pixels", off().fold(0.0, f64::max));
         assert!(mae > 0.0, "{text}: no table was looked up");
@@ -79,7 +81,8 @@ fn shadows_of_pictures_are_right() {
     }
 }
 
-/// The plate looks the same from everywhere on the light, so pieces, each with its part of the picture, have to give what the whole does.
+/// The plate looks the same from everywhere on the light, so pieces, each with its part of the
+/// picture, have to give what the whole does.
 #[test]
 fn pieces_of_pictures_add_up_to_them() {
     let gpu = gpu();
@@ -94,7 +97,8 @@ fn pieces_of_pictures_add_up_to_them() {
     }
 }
 
-/// About half of the picture is below the floor, and oblique, so that what is depends on the picture.
+/// About half of the picture is below the floor, and oblique, so that what is depends on the
+/// picture.
 #[test]
 fn a_picture_below_the_horizon_is_hidden() {
     let gpu = gpu();

@@ -116,8 +116,8 @@ fn heat(picture: &Image<[u8; 4]>) -> f64 {
     picture.data.iter().map(|p| number(*p)).sum()
 }
 
-/// A body whose edges are short against its penumbra, against the same where every wedge is drawn by itself. How many find each other goes by the
-/// order of the list, which no two runs share.
+/// A body whose edges are short against its penumbra, against the same where every wedge is drawn
+/// by itself. How many find each other goes by the order of the list, which no two runs share.
 #[test]
 fn wedges_close_together_are_drawn_as_one() {
     let gpu = gpu();

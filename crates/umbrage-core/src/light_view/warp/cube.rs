@@ -6,7 +6,8 @@ use super::horizon::{Subject, VirtualCamera};
 use super::rays::cut;
 use glam::{DVec3, DVec4};
 
-/// A map for every side of the cube by which rays to something seen leave it, and the number of the side.
+/// A map for every side of the cube by which rays to something seen leave it, and the number of the
+/// side.
 pub(super) fn sides(subject: &Subject<'_>, camera: &VirtualCamera, fit: &Fit) -> Vec<(u32, FlatMap)> {
     let rows = camera.clip_from_world;
     let light = rows.map(|row| row.dot(subject.rays.light));
@@ -27,7 +28,8 @@ pub(super) fn sides(subject: &Subject<'_>, camera: &VirtualCamera, fit: &Fit) ->
     maps
 }
 
-/// The plane through the light and the edge between two sides of the cube, positive towards the first one's middle.
+/// The plane through the light and the edge between two sides of the cube, positive towards the
+/// first one's middle.
 fn edge([a, b]: [usize; 2], [at_a, at_b]: [f64; 2], rows: &[DVec4; 4], light: &[f64; 4]) -> DVec4 {
     let from_a = (rows[a] - rows[3] * at_a) * (light[b] - at_b * light[3]);
     let from_b = (rows[b] - rows[3] * at_b) * (light[a] - at_a * light[3]);

@@ -10,7 +10,8 @@ pub(super) struct FlatMap {
     pub clip_from_ray: DMat3,
 }
 
-/// Smallest value of the horizon's function over the largest one, among all rays of a map: texels differ by as much.
+/// Smallest value of the horizon's function over the largest one, among all rays of a map: texels
+/// differ by as much.
 const LEAST: f64 = 1.0 / 512.0;
 
 /// Turns of the map that are tried, over a right angle.
@@ -29,7 +30,8 @@ pub(super) fn moved_off(horizon: DVec3, hull: &[DVec2]) -> DVec3 {
 }
 
 impl FlatMap {
-    /// With this horizon, turned so that the rectangle around `hull`, which fills the map, is small.
+    /// With this horizon, turned so that the rectangle around `hull`, which fills the map, is
+    /// small.
     pub fn new(horizon: DVec3, hull: &[DVec2], fit: &Fit) -> Option<Self> {
         let horizon = moved_off(horizon, hull);
         let flat: Vec<DVec2> = hull.iter().map(|ray| *ray / horizon.dot(ray.extend(1.0))).collect();

@@ -30,11 +30,13 @@ struct Place {
     ray: DVec2,
     /// Cosine of the angle between its normal and the way to the light.
     facing: f64,
-    /// Change of the place on the screen with the ray along the surface, in units of the picture's height.
+    /// Change of the place on the screen with the ray along the surface, in units of the picture's
+    /// height.
     screen_from_ray: DMat2,
 }
 
-/// The virtual camera: the real one, moved back, whose post-perspective cube is around what is seen.
+/// The virtual camera: the real one, moved back, whose post-perspective cube is around what is
+/// seen.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct VirtualCamera {
     /// Right, up, depth and w of clip space; what is seen is from −1 to 1 in all three.
@@ -69,8 +71,8 @@ impl<'a> Subject<'a> {
         FlatMap::new(horizon, &self.hull, fit)
     }
 
-    /// How far a texel reaches on the screen in the mean: the largest singular value of its footprint, in units of the picture's height.
-    /// Places count by the light that they get.
+    /// How far a texel reaches on the screen in the mean: the largest singular value of its
+    /// footprint, in units of the picture's height. Places count by the light that they get.
     fn texel_on_screen(&self, horizon: DVec3, fit: &Fit) -> f64 {
         let Some(map) = self.map(horizon, fit) else { return f64::INFINITY };
         let sizes = self.places.iter().map(|place| {
@@ -80,8 +82,9 @@ impl<'a> Subject<'a> {
         sizes.sum()
     }
 
-    /// The virtual camera of a perspective shadow map: back so far that the nearest receiver is `least_near` away, and with `shift` as much
-    /// farther as makes texels smallest; `None` where no distance is as good as infinity.
+    /// The virtual camera of a perspective shadow map: back so far that the nearest receiver is
+    /// `least_near` away, and with `shift` as much farther as makes texels smallest; `None` where
+    /// no distance is as good as infinity.
     pub fn virtual_camera(&self, shift: bool, least_near: f64, fit: &Fit) -> Option<VirtualCamera> {
         let [nearest, farthest] = self.range;
         let least = (least_near.max(NEAREST * farthest) - nearest).max(0.0);
@@ -120,8 +123,9 @@ impl<'a> Subject<'a> {
         clip_from_world.iter().all(|row| row.is_finite()).then_some(VirtualCamera { clip_from_world })
     }
 
-    /// The horizon of a perspective shadow map: in post-perspective space, the plane through the light across the way to the
-    /// middle of the cube. The light may be a point there, at infinity, or inverted: a point that rays go to.
+    /// The horizon of a perspective shadow map: in post-perspective space, the plane through the
+    /// light across the way to the middle of the cube. The light may be a point there, at infinity,
+    /// or inverted: a point that rays go to.
     pub fn post_perspective(&self, camera: &VirtualCamera) -> DVec3 {
         let rows = camera.clip_from_world;
         let [x, y, z, w] = rows.map(|row| row.dot(self.rays.light));
@@ -129,8 +133,9 @@ impl<'a> Subject<'a> {
         self.rays.coordinates(rows[3] * (x * x + y * y + z * z) - towards * w)
     }
 
-    /// The horizon of a light-space perspective shadow map. From its near to its far end, errors of the projection along the view grow by
-    /// the root of the ratio of distances (Wimmer et al. 2004, n_opt); less where light and view are not perpendicular.
+    /// The horizon of a light-space perspective shadow map. From its near to its far end, errors of
+    /// the projection along the view grow by the root of the ratio of distances (Wimmer et al.
+    /// 2004, n_opt); less where light and view are not perpendicular.
     pub fn light_space(&self, strength: f64) -> DVec3 {
         let forward = self.view[2].truncate();
         let middle = self.points.iter().sum::<DVec3>() / self.points.len().max(1) as f64;
@@ -150,8 +155,9 @@ impl<'a> Subject<'a> {
         (along / distance).extend(1.0 - first / distance)
     }
 
-    /// The horizon that leaves no perspective between a plane's place on the screen and in the map: it goes through the line in
-    /// which the plane meets that of the camera (SG "Thesis of Hamilton Yu-Ik Chong").
+    /// The horizon that leaves no perspective between a plane's place on the screen and in the map:
+    /// it goes through the line in which the plane meets that of the camera (SG "Thesis of Hamilton
+    /// Yu-Ik Chong").
     pub fn plane_optimal(&self, plane: DVec4) -> DVec3 {
         let (ahead, light) = (self.view[2], self.rays.light);
         let above = plane.dot(light);
@@ -159,8 +165,9 @@ impl<'a> Subject<'a> {
         if above < 0.0 { -horizon } else { horizon }
     }
 
-    /// The plane whose optimum makes texels smallest on all that is seen: that of the receivers' boxes which most of the picture shows, of
-    /// those that face the light, or the level one under everything.
+    /// The plane whose optimum makes texels smallest on all that is seen: that of the receivers'
+    /// boxes which most of the picture shows, of those that face the light, or the level one under
+    /// everything.
     pub fn best_plane(&self, fit: &Fit) -> DVec4 {
         let lowest = self.points.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
         let level = DVec4::new(0.0, 1.0, 0.0, -lowest);
@@ -234,11 +241,12 @@ fn stretch(m: DMat2) -> f64 {
     (0.5 * (sum + (sum * sum - 4.0 * product * product).max(0.0).sqrt())).sqrt()
 }
 
-/// Least gain in the size of texels that a warp is worth: its texels are longer than wide, and it is chosen by boxes around receivers.
+/// Least gain in the size of texels that a warp is worth: its texels are longer than wide, and it
+/// is chosen by boxes around receivers.
 const WORTH: f64 = 0.7;
 
-/// Where from 0 to 1 a function is least, as far as steps and what is around the best of them tell; 1, no warp, where that is not worth
-/// it.
+/// Where from 0 to 1 a function is least, as far as steps and what is around the best of them tell;
+/// 1, no warp, where that is not worth it.
 fn share_of_least(score: &dyn Fn(f64) -> f64) -> Option<f64> {
     let step = 1.0 / f64::from(STEPS);
     let at = |share: f64| (share, score(share));
@@ -249,7 +257,8 @@ fn share_of_least(score: &dyn Fn(f64) -> f64) -> Option<f64> {
     Some(if best.1 <= WORTH * score(1.0) { best.0 } else { 1.0 })
 }
 
-/// The least value of a function with one minimum between two places, and where it is: by the golden section.
+/// The least value of a function with one minimum between two places, and where it is: by the
+/// golden section.
 fn golden(mut low: f64, mut high: f64, at: &dyn Fn(f64) -> (f64, f64)) -> (f64, f64) {
     const SHARE: f64 = 0.618_033_988_749_894_9;
     let mut inner = [at(high - SHARE * (high - low)), at(low + SHARE * (high - low))];

@@ -1,12 +1,15 @@
 //! Warped views: one map whose texels are smaller near the camera.
 //!
-//! What a map shows of a light is fixed: a point of it is a ray of the light. Free is the plane the picture is taken on, and with it
-//! where texels are dense (SG "Thesis of Hamilton Yu-Ik Chong"). In homogeneous coordinates a plane through the light, the *horizon*,
-//! says it all: texels are as large as the distance from it. Perspective shadow maps (Stamminger and Drettakis 2002; Kozlov 2004), light-space
-//! perspective shadow maps (Wimmer, Scherzer and Purgathofer 2004) and the optimum for a plane are three choices of it.
+//! What a map shows of a light is fixed: a point of it is a ray of the light. Free is the plane the
+//! picture is taken on, and with it where texels are dense (SG "Thesis of Hamilton Yu-Ik Chong").
+//! In homogeneous coordinates a plane through the light, the *horizon*, says it all: texels are as
+//! large as the distance from it. Perspective shadow maps (Stamminger and Drettakis 2002; Kozlov
+//! 2004), light-space perspective shadow maps (Wimmer, Scherzer and Purgathofer 2004) and the
+//! optimum for a plane are three choices of it.
 //!
-//! A ray of the light never meets the horizon, so every caster between a receiver and the light is on the receiver's side: behind the eye
-//! too, where post-perspective space wraps around at infinity (SG "Shadows From the Back").
+//! A ray of the light never meets the horizon, so every caster between a receiver and the light is
+//! on the receiver's side: behind the eye too, where post-perspective space wraps around at
+//! infinity (SG "Shadows From the Back").
 
 mod cube;
 mod flat;
@@ -26,27 +29,31 @@ use seen::surfaces;
 /// Which horizon a map gets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Warp {
-    /// That of a map taken in post-perspective space, which looks from the transformed light to the middle of what is seen.
+    /// That of a map taken in post-perspective space, which looks from the transformed light to the
+    /// middle of what is seen.
     PostPerspective {
-        /// Moves the virtual camera back as far as makes texels smallest on the screen; to infinity, a uniform map, where warping does not
-        /// help. Else it is the camera itself.
+        /// Moves the virtual camera back as far as makes texels smallest on the screen; to
+        /// infinity, a uniform map, where warping does not help. Else it is the camera itself.
         shift: bool,
-        /// The virtual camera's near plane is not nearer than this, metres along the view; 0 for the nearest receiver.
+        /// The virtual camera's near plane is not nearer than this, metres along the view; 0 for
+        /// the nearest receiver.
         near: f64,
         /// One view for every side of the post-perspective cube that the light's rays leave by.
         cube: bool,
     },
-    /// Across the light and along the view, at the distance that makes errors near and far the same, divided by `strength`: 0 for
-    /// a uniform map.
+    /// Across the light and along the view, at the distance that makes errors near and far the
+    /// same, divided by `strength`: 0 for a uniform map.
     LightSpace {
         /// See above; 1 is the optimum.
         strength: f64,
     },
     /// The one that makes texels uniform on the screen on a plane.
     Plane {
-        /// Unit normal and offset of the plane; `None` for the one that most of the picture shows, or the ground, whichever is better.
+        /// Unit normal and offset of the plane; `None` for the one that most of the picture shows,
+        /// or the ground, whichever is better.
         plane: Option<DVec4>,
-        /// Moves the horizon away from there as far as makes texels smallest on all that is seen, to infinity where it does not help at all.
+        /// Moves the horizon away from there as far as makes texels smallest on all that is seen,
+        /// to infinity where it does not help at all.
         gives_way: bool,
     },
 }
@@ -54,9 +61,10 @@ pub enum Warp {
 /// Layers of the views of [`Warp::PostPerspective`] with `cube`.
 pub const CUBE_SIDES: u32 = 6;
 
-/// Fits warped views of `light` to what `camera` sees, replacing what is in `views`: one of parallel light or of a spot, else one a face
-/// of [`Omni::Cube`], which is returned then. With `cube` parallel light and spots get several, in layers 0 to [`CUBE_SIDES`], and
-/// a receiver belongs to any that covers it.
+/// Fits warped views of `light` to what `camera` sees, replacing what is in `views`: one of
+/// parallel light or of a spot, else one a face of [`Omni::Cube`], which is returned then. With
+/// `cube` parallel light and spots get several, in layers 0 to [`CUBE_SIDES`], and a receiver
+/// belongs to any that covers it.
 pub fn fit_warped(
     light: &LightShape,
     camera: &CameraView,
@@ -122,7 +130,8 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// Appends the views of what `rays` show of `points`, all that is seen there; `near` is of a light that is somewhere.
+    /// Appends the views of what `rays` show of `points`, all that is seen there; `near` is of a
+    /// light that is somewhere.
     fn views(&self, rays: Rays, points: &[DVec3], near: f64, layer: u32, views: &mut Vec<LightView>) {
         let Some(subject) = Subject::new(rays, points, self.camera, self.surfaces) else { return };
         let mut add = |map: &FlatMap, layer| views.extend(view::of(map, &subject, self.scene, self.fit, near, layer));

@@ -3,8 +3,9 @@
 use super::super::perspective::WIDEST;
 use glam::{DVec2, DVec3, DVec4};
 
-/// Homogeneous coordinates of the rays of a light: three functions of a point, linear in (p, 1), that do not change towards the light but
-/// for a common factor. The last one is positive before the light.
+/// Homogeneous coordinates of the rays of a light: three functions of a point, linear in (p, 1),
+/// that do not change towards the light but for a common factor. The last one is positive before
+/// the light.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rays {
     pub axes: [DVec4; 3],
@@ -35,7 +36,8 @@ impl Rays {
         self.light.w == 0.0
     }
 
-    /// The ray through a point that is before the light. Rounding beside a light may not put it anywhere.
+    /// The ray through a point that is before the light. Rounding beside a light may not put it
+    /// anywhere.
     pub fn of(&self, point: DVec3) -> DVec2 {
         let [x, y, ahead] = self.axes.map(|a| a.dot(point.extend(1.0)));
         let ray = DVec2::new(x, y) / ahead.max(f64::MIN_POSITIVE);
@@ -73,7 +75,8 @@ impl Rays {
     }
 }
 
-/// The corners of the convex hull of points of a plane, counter-clockwise (Andrew's monotone chain).
+/// The corners of the convex hull of points of a plane, counter-clockwise (Andrew's monotone
+/// chain).
 pub(super) fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.retain(|p| p.is_finite());
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));

@@ -3,7 +3,8 @@
 use crate::{bounds::Bounds, camera::CameraView, frustum::Frustum, view_body::ViewBody};
 use glam::DVec3;
 
-/// A place in the picture: where its ray meets the first of the receivers' boxes, or leaves one that the eye is in.
+/// A place in the picture: where its ray meets the first of the receivers' boxes, or leaves one
+/// that the eye is in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Surface {
     pub point: DVec3,
@@ -40,7 +41,8 @@ pub(super) fn surfaces(camera: &CameraView, seen: &Frustum, receivers: &[Bounds]
     surfaces
 }
 
-/// Where a ray enters a box, or leaves it where it starts inside, and the normal of that side towards where it comes from.
+/// Where a ray enters a box, or leaves it where it starts inside, and the normal of that side
+/// towards where it comes from.
 fn hit(from: DVec3, way: DVec3, bounds: &Bounds) -> Option<(f64, DVec3)> {
     let (mut enter, mut leave) = ((f64::NEG_INFINITY, 0), (f64::INFINITY, 0));
     for axis in 0..3 {

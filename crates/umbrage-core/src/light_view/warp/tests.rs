@@ -135,7 +135,8 @@ fn what_is_seen_is_covered_and_depth_falls_away_from_the_light() {
     assert!(checked > 10_000, "{checked}");
 }
 
-/// Every point of a caster between `p` and the light is at the same place of the map, farther in front, and not beyond its near end.
+/// Every point of a caster between `p` and the light is at the same place of the map, farther in
+/// front, and not beyond its near end.
 fn check_ray(view: &LightView, light: &LightShape, scene: &FitScene, p: DVec3, name: &str) {
     let center = light.center();
     let (way, end) = match center.w {
@@ -164,7 +165,8 @@ fn span(p: DVec3, way: DVec3, bounds: &Bounds) -> Vec<f64> {
     if enter < leave { [enter, leave].into_iter().filter(|t| *t > 0.0).collect() } else { Vec::new() }
 }
 
-/// Mean of what texels reach on the screen, over what a grid of rays other than the fit's sees, by the light that places get.
+/// Mean of what texels reach on the screen, over what a grid of rays other than the fit's sees, by
+/// the light that places get.
 fn mean_texel(views: &[LightView], camera: &CameraView, scene: &FitScene, toward_light: DVec3) -> Option<f64> {
     let tilted =
         Camera { eye: camera.eye, target: camera.eye + camera.forward(), fov_y_deg: 50.0, ..Camera::default() };
@@ -220,7 +222,8 @@ fn a_perspective_map_is_never_worse_than_a_uniform_one() {
 
 #[test]
 fn a_light_across_the_view_leaves_no_perspective_at_all() {
-    // Then the light is parallel in post-perspective space, and the distance from the horizon is that along the view.
+    // Then the light is parallel in post-perspective space, and the distance from the horizon is
+    // that along the view.
     let mut random = Random(3);
     let scene = town(&mut random, 50.0);
     let eye = DVec3::new(5.0, 2.0, 40.0);

@@ -7,8 +7,9 @@ use super::rays::Rays;
 use crate::frustum::Frustum;
 use glam::{DMat4, DVec3, DVec4};
 
-/// The view of a map. From a point, depth is `near` / distance from the horizon, scaled to metres. Of parallel light it is the height over
-/// the lowest receiver, over the distance from the horizon: 1 for the nearest caster that the map shows, in that measure.
+/// The view of a map. From a point, depth is `near` / distance from the horizon, scaled to metres.
+/// Of parallel light it is the height over the lowest receiver, over the distance from the horizon:
+/// 1 for the nearest caster that the map shows, in that measure.
 pub(super) fn of(
     map: &FlatMap,
     subject: &Subject<'_>,
@@ -33,7 +34,8 @@ pub(super) fn of(
     clip_from_world.is_finite().then(|| LightView::of(clip_from_world, fit.size, layer))
 }
 
-/// The row of depth of parallel light: no caster in the `column` of the map is nearer than 1, no receiver farther than 0.
+/// The row of depth of parallel light: no caster in the `column` of the map is nearer than 1, no
+/// receiver farther than 0.
 fn height_over_horizon(rays: &Rays, w: DVec4, column: Frustum, receivers: &[DVec3], scene: &FitScene) -> Option<DVec4> {
     let up = rays.light.truncate();
     let lowest = receivers.iter().map(|p| up.dot(*p)).fold(f64::INFINITY, f64::min);

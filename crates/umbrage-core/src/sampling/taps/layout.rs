@@ -5,7 +5,8 @@ use super::Domain;
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 
-/// One jittered tap in each of `taps` strata of equal area; `seed` gives each set its own jitter. `tests` ≤ `taps`.
+/// One jittered tap in each of `taps` strata of equal area; `seed` gives each set its own jitter.
+/// `tests` ≤ `taps`.
 pub fn jittered(domain: Domain, taps: u32, tests: u32, seed: u32) -> Vec<[f64; 2]> {
     let first = seed.wrapping_mul(taps);
     match domain {
@@ -31,8 +32,9 @@ pub fn jittered(domain: Domain, taps: u32, tests: u32, seed: u32) -> Vec<[f64; 2
     }
 }
 
-/// Number of sectors in each ring of a disc or a square, from the border inwards: the `tests` of the outermost, then
-/// rings of the same width, whose sectors are about as long as they are wide. All sectors have the same area.
+/// Number of sectors in each ring of a disc or a square, from the border inwards: the `tests` of
+/// the outermost, then rings of the same width, whose sectors are about as long as they are wide.
+/// All sectors have the same area.
 pub fn rings(domain: Domain, taps: u32, tests: u32) -> Vec<u32> {
     let inner = taps - tests;
     // The area of a disc or a square whose inscribed circle has radius 1.
@@ -45,8 +47,9 @@ pub fn rings(domain: Domain, taps: u32, tests: u32) -> Vec<u32> {
 
 /// An evenly spread set without chance, the next one for every `turn` in [0, 1). `tests` ≤ `taps`.
 ///
-/// The disc gets a Vogel spiral, turned; the square a lattice, shifted along its diagonal; the segment the middles of equal
-/// pieces, shifted within them. Small turns move taps a little, so that where errors depend on `turn`, they do smoothly.
+/// The disc gets a Vogel spiral, turned; the square a lattice, shifted along its diagonal; the
+/// segment the middles of equal pieces, shifted within them. Small turns move taps a little, so
+/// that where errors depend on `turn`, they do smoothly.
 pub fn evenly_spread(domain: Domain, taps: u32, tests: u32, turn: f64) -> Vec<[f64; 2]> {
     let lattice = symmetric_lattice(taps as usize);
     let to_square = |u: DVec2| (u * 2.0 - 1.0).to_array();
@@ -64,8 +67,9 @@ pub fn evenly_spread(domain: Domain, taps: u32, tests: u32, turn: f64) -> Vec<[f
     }
 }
 
-/// The point of the disc or the square that is `around` ∈ [0, 1) of the way around the middle and on the border of the
-/// part that has the share `within` ∈ [0, 1] of the area. Equal areas of the two go to equal areas of the domain.
+/// The point of the disc or the square that is `around` ∈ [0, 1) of the way around the middle and
+/// on the border of the part that has the share `within` ∈ [0, 1] of the area. Equal areas of the
+/// two go to equal areas of the domain.
 fn from_polar(domain: Domain, around: f64, within: f64) -> [f64; 2] {
     let radius = within.sqrt();
     if domain == Domain::Disc {
@@ -97,7 +101,8 @@ pub fn to_polar(domain: Domain, [x, y]: [f64; 2]) -> (f64, f64) {
     (((side + on_side) * 0.25).rem_euclid(1.0), radius * radius)
 }
 
-/// From the border inwards, but first the outermost tap of each of `tests` equal sectors, as far as a sector has one.
+/// From the border inwards, but first the outermost tap of each of `tests` equal sectors, as far as
+/// a sector has one.
 fn rim_first(domain: Domain, mut set: Vec<[f64; 2]>, tests: u32) -> Vec<[f64; 2]> {
     set.sort_by(|a, b| to_polar(domain, *b).1.total_cmp(&to_polar(domain, *a).1));
     let mut taken = vec![false; tests as usize];
@@ -109,7 +114,8 @@ fn rim_first(domain: Domain, mut set: Vec<[f64; 2]>, tests: u32) -> Vec<[f64; 2]
     first
 }
 
-/// From one end of the segment to the other, but first `tests` that are spread over all of it, ends included.
+/// From one end of the segment to the other, but first `tests` that are spread over all of it, ends
+/// included.
 fn ends_first(mut set: Vec<[f64; 2]>, tests: u32) -> Vec<[f64; 2]> {
     set.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let (last, tests) = (set.len() - 1, tests as usize);

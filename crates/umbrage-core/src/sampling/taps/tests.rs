@@ -21,7 +21,8 @@ fn beyond(domain: Domain, angle: f64, d: f64) -> f64 {
     }
 }
 
-/// Over the sets and many lines: mean error of the share of taps beyond the line, root mean square, and that of white noise.
+/// Over the sets and many lines: mean error of the share of taps beyond the line, root mean square,
+/// and that of white noise.
 fn share_errors(table: &TapTable, domain: Domain) -> (f64, f64, f64) {
     let (mut sum, mut squares, mut white, mut n) = (0.0, 0.0, 0.0, 0.0);
     for turn in 0..32 {
@@ -86,8 +87,9 @@ fn moments_are_those_of_the_domain() {
             Domain::Segment => [1.0 / 3.0, 0.0, 0.0],
         };
         let off = second.iter().zip(want).map(|(got, want)| (got - want).abs()).fold(0.0, f64::max);
-        // Four standard deviations of taps jittered in cells of area 4 / taps, 256 sets of them. The others have no chance
-        // in them, but a lattice has a slant, and one set need not be as good as the many: measured, rounded up.
+        // Four standard deviations of taps jittered in cells of area 4 / taps, 256 sets of them.
+        // The others have no chance in them, but a lattice has a slant, and one set need not be as
+        // good as the many: measured, rounded up.
         let limit = match pattern {
             Pattern::Stratified => 0.145,
             Pattern::Blue | Pattern::Gradient => 0.25,
@@ -109,7 +111,8 @@ fn grids_are_regular_and_have_the_moments_of_the_domain() {
             assert_eq!((table.sets, table.taps, table.offsets.len() as u32), (1, side * side, side * side));
             let mean = |f: &dyn Fn(&[f32; 2]) -> f32| table.offsets.iter().map(f).sum::<f32>() / table.taps as f32;
             let full = if domain == Domain::Disc { 0.25 } else { 1.0 / 3.0 };
-            // The middles of n pieces have (1 − 1/n²) of the second moment of all; in the disc they come as close to that.
+            // The middles of n pieces have (1 − 1/n²) of the second moment of all; in the disc they
+            // come as close to that.
             let pieces = if domain == Domain::Segment { side * side } else { side } as f32;
             let want = full * (1.0 - 1.0 / (pieces * pieces));
             let limit = if domain == Domain::Disc { 1.1 * full / (pieces * pieces) } else { 1e-5 };
@@ -202,7 +205,8 @@ fn the_first_taps_are_outermost_and_one_in_each_sector() {
             polar.iter().for_each(|tap| outermost[sector(tap)] = f64::max(outermost[sector(tap)], tap.1));
             let mut tested = [-1.0; 8];
             polar[..8].iter().for_each(|tap| tested[sector(tap)] = f64::max(tested[sector(tap)], tap.1));
-            // A few evenly spread taps may leave a sector empty; then the eight have another outermost one instead.
+            // A few evenly spread taps may leave a sector empty; then the eight have another
+            // outermost one instead.
             assert_eq!(tested, outermost, "{domain:?}, {pattern:?}, {taps} taps, set {set}");
             let all_full = outermost.iter().all(|within| *within >= 0.0);
             assert!(all_full || (pattern != Pattern::Stratified && taps <= 16), "{domain:?}, {pattern:?}, {taps}");
@@ -259,7 +263,8 @@ fn blue_tiles_take_all_sets_equally_often() {
 #[test]
 fn shares_beyond_lines_are_right_with_less_noise_than_random_taps() {
     for (domain, pattern, taps) in all(&[16, 64, 256]) {
-        // The largest root mean squares, as a share of that of random taps: the measured ones, rounded up.
+        // The largest root mean squares, as a share of that of random taps: the measured ones,
+        // rounded up.
         let limit = match (pattern, taps) {
             (Pattern::Stratified, 16) => 0.55,
             (Pattern::Stratified, 64) => 0.4,
@@ -277,7 +282,8 @@ fn shares_beyond_lines_are_right_with_less_noise_than_random_taps() {
 
 #[test]
 fn the_closed_forms_of_these_tests_agree_with_many_taps() {
-    // Against an error of the formulas and of the layout that both hide from each other: a plain grid.
+    // Against an error of the formulas and of the layout that both hide from each other: a plain
+    // grid.
     let grid: Vec<[f64; 2]> =
         (0..400 * 400).map(|i| [i % 400, i / 400].map(|x| (f64::from(x) + 0.5) / 200.0 - 1.0)).collect();
     for domain in [Domain::Disc, Domain::Square] {

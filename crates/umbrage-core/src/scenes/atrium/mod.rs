@@ -67,7 +67,8 @@ struct Stock {
     wood: usize,
 }
 
-/// One side of the court: x runs along it from its middle, the court lies towards +z, the arcade at z = 0.
+/// One side of the court: x runs along it from its middle, the court lies towards +z, the arcade at
+/// z = 0.
 struct Side {
     world_from_side: DAffine3,
     bays: u32,
@@ -161,7 +162,8 @@ fn place_walls(scene: &mut Scene, stock: &Stock, side: &Side) {
     let wall = [-GALLERY - 0.3, -GALLERY];
     place_box(scene, stock, side, stock.plaster, [[-wall_half, wall_half], [0.0, roof], wall]);
     let along = [-half, half];
-    // The step up from the court reaches past the arcade; where two sides meet it is left to one of them.
+    // The step up from the court reaches past the arcade; where two sides meet it is left to one of
+    // them.
     let step = side.length() * 0.5 - if side.covers_corners { 0.0 } else { 0.7 };
     place_box(scene, stock, side, stock.pale, [[-step, step], [0.0, STEP], [-WALL * 0.5, 0.7]]);
     place_box(scene, stock, side, stock.stone, [along, [0.0, STEP], [-GALLERY, -WALL * 0.5]]);

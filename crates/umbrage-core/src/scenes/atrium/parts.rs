@@ -19,8 +19,8 @@ fn block(y: f64, width: f64, height: f64) -> Mesh {
     primitive::cube().transformed(&standing(DVec3::Y * y, DVec3::new(width, height, width), 0.0))
 }
 
-/// A column from 0 to `height` with plinth, base, swelling shaft, capital and abacus; `r` is the radius of the
-/// shaft's foot, metres.
+/// A column from 0 to `height` with plinth, base, swelling shaft, capital and abacus; `r` is the
+/// radius of the shaft's foot, metres.
 pub fn column(height: f64, r: f64, cut: Cut) -> Mesh {
     let arc = |x: f64, y: f64, radius: f64, from: f64, to: f64| {
         shapes::arc(DVec2::new(x * r, y), radius * r, from, to, cut.arc)
@@ -63,10 +63,11 @@ pub fn baluster(cut: Cut) -> Mesh {
     mesh
 }
 
-/// One bay of an arcade wall above the springing line y = 0: a wall `width` × `height`, `thickness` thick, with a
-/// round arch of `radius` cut out, and a raised band around the arch.
+/// One bay of an arcade wall above the springing line y = 0: a wall `width` × `height`, `thickness`
+/// thick, with a round arch of `radius` cut out, and a raised band around the arch.
 pub fn arch(width: f64, height: f64, radius: f64, thickness: f64, arc_segments: u32) -> Mesh {
-    // A quarter of the segments goes up either side, half along the top, so that the corners are met.
+    // A quarter of the segments goes up either side, half along the top, so that the corners are
+    // met.
     let quarter = (arc_segments / 4).max(2);
     let half_circle = |radius| shapes::arc(DVec2::ZERO, radius, 0.0, 180.0, 4 * quarter);
     let corners = [(0.5, 0.0), (0.5, 1.0), (0.0, 1.0), (-0.5, 1.0), (-0.5, 0.0)];

@@ -29,8 +29,8 @@ fn pose_all(gpu: &Gpu, casters: &mut Casters, scene: &Scene) {
     gpu.queue.submit([encoder.finish()]);
 }
 
-/// Positions and normals of every posed instance on the GPU are those of the CPU, in a box that holds them; returns how many vertices
-/// were compared.
+/// Positions and normals of every posed instance on the GPU are those of the CPU, in a box that
+/// holds them; returns how many vertices were compared.
 fn check(gpu: &Gpu, casters: &Casters, scene: &Scene) -> usize {
     let (positions, attributes) = (read(gpu, &casters.positions), read(gpu, &casters.attributes));
     let mut compared = 0;

@@ -1,8 +1,9 @@
 //! What a layer of a map shows already, and what is left to do.
 //!
-//! As long as a view stays the same, bit by bit, a map is good until a caster moves that it shows or that comes into view. Then
-//! the casters at rest are drawn into a map of their own, the *store*, once: a frame takes a copy of it and draws the movers
-//! over it. Where the view changes in every frame nothing is kept and nothing lost.
+//! As long as a view stays the same, bit by bit, a map is good until a caster moves that it shows
+//! or that comes into view. Then the casters at rest are drawn into a map of their own,
+//! the *store*, once: a frame takes a copy of it and draws the movers over it. Where the view
+//! changes in every frame nothing is kept and nothing lost.
 
 use super::movers::Movers;
 use crate::casters::{Casters, Places};
@@ -61,10 +62,12 @@ impl LayerCache {
         *self = Self::default();
     }
 
-    /// What has to be done for this view. A layer that had none in the last frame must have been forgotten.
+    /// What has to be done for this view. A layer that had none in the last frame must have been
+    /// forgotten.
     pub fn work(&mut self, frame: &Frame<'_>, view: &LightView) -> Work {
         let Frame { casters, movers, can_store } = frame;
-        // Never less than before, or one receiver that moves to and fro would have everything drawn anew.
+        // Never less than before, or one receiver that moves to and fro would have everything drawn
+        // anew.
         let known = self.map.as_ref().filter(|map| map.view == *view).map_or(Bounds::EMPTY, |map| map.receivers);
         let receivers = known.union(casters.receivers_bounds());
         self.receivers = receivers;
@@ -82,7 +85,8 @@ impl LayerCache {
         if !movers.moved.iter().any(|place| touched(map, *place)) {
             return Work::Keep;
         }
-        // Where casters start to move there will be others in the next frame: a store is not made yet.
+        // Where casters start to move there will be others in the next frame: a store is not made
+        // yet.
         let settled = || !movers.started.iter().any(|place| touched(map, *place));
         match self.store {
             _ if !can_store => Work::Whole,

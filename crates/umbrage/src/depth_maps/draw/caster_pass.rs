@@ -6,10 +6,12 @@ use crate::casters::{Casters, DrawList, InstanceNumbers, Surface, texture_layout
 use crate::depth_maps::frame::MapFrame;
 use crate::{gpu::Gpu, passes::Passes, shader::Shader, view::View};
 
-/// Draws what each of a light's views sees of the casters: silhouette maps, smoothies, colours of stained glass.
+/// Draws what each of a light's views sees of the casters: silhouette maps, smoothies, colours of
+/// stained glass.
 ///
-/// The shader needs the module `map_depth`, which has its vertex shaders, `opaque` and `masked`; it may read the view as `map_view`. Views
-/// that are no matrices ([`umbrage_core::light_view::LightView::paraboloid`]) are not for it.
+/// The shader needs the module `map_depth`, which has its vertex shaders, `opaque` and `masked`; it
+/// may read the view as `map_view`. Views that are no matrices
+/// ([`umbrage_core::light_view::LightView::paraboloid`]) are not for it.
 pub struct CasterPass {
     pipelines: [wgpu::RenderPipeline; 2],
     layout: wgpu::BindGroupLayout,
@@ -22,7 +24,8 @@ pub struct CasterPass {
 }
 
 impl CasterPass {
-    /// `fragments`: the fragment shaders of opaque casters and of those with an alpha mask. Depth in views of light is reversed: 1 is nearest.
+    /// `fragments`: the fragment shaders of opaque casters and of those with an alpha mask. Depth
+    /// in views of light is reversed: 1 is nearest.
     pub fn new(
         gpu: &Gpu,
         shader: &Shader,

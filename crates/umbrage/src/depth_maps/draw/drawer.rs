@@ -109,8 +109,8 @@ impl Drawer {
         }
     }
 
-    /// Renders the maps; returns the number of draws. `matrices` has one for each layer from the casters' space to clip space, where these
-    /// were made on the GPU.
+    /// Renders the maps; returns the number of draws. `matrices` has one for each layer from the
+    /// casters' space to clip space, where these were made on the GPU.
     pub fn record(
         &mut self,
         passes: &mut Passes<'_>,

@@ -29,7 +29,8 @@ pub(super) struct Lists {
     /// Places of casters in a view.
     found: Vec<u32>,
     movers: Vec<u32>,
-    /// Casters that the light is in, or so near that the near plane may cut their fronts off; sorted.
+    /// Casters that the light is in, or so near that the near plane may cut their fronts off;
+    /// sorted.
     pierced: Vec<u32>,
     /// Back faces are drawn of every caster.
     pub backs: bool,
@@ -58,8 +59,8 @@ impl Layer {
         self.cache.forget();
     }
 
-    /// Chooses what to draw; casters that shadow nothing are left out where there is a `light`. Without a `frame` all is
-    /// drawn, and nothing known of it afterwards.
+    /// Chooses what to draw; casters that shadow nothing are left out where there is a `light`.
+    /// Without a `frame` all is drawn, and nothing known of it afterwards.
     pub fn prepare(
         &mut self,
         casters: &Casters,
@@ -96,8 +97,8 @@ impl Layer {
         }
     }
 
-    /// The movers alone and, with `rest`, the others for the store; false where there are not enough of these for a store
-    /// to be worth a copy.
+    /// The movers alone and, with `rest`, the others for the store; false where there are not
+    /// enough of these for a store to be worth a copy.
     fn prepare_over(
         &mut self,
         frame: &Frame<'_>,

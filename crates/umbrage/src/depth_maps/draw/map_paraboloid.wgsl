@@ -1,9 +1,10 @@
 // needs: map_depth
 // Renders casters into a paraboloid map (Brabec, Annen and Seidel 2002).
 //
-// A way d from the light, z ahead, stands at d.xy / (|d| + d.z) in the paraboloid's plane. Only corners of triangles are
-// put there; edges between them are straight where they should be arcs of circles. Depth is exact nevertheless: each
-// fragment meets its triangle's plane along the ray of its own texel.
+// A way d from the light, z ahead, stands at d.xy / (|d| + d.z) in the paraboloid's plane. Only
+// corners of triangles are put there; edges between them are straight where they should be arcs of
+// circles. Depth is exact nevertheless: each fragment meets its triangle's plane along the ray of
+// its own texel.
 
 struct Bent {
     @invariant @builtin(position) position: vec4f,
@@ -13,8 +14,9 @@ struct Bent {
     @location(2) way: vec3f,
 }
 
-// How far from a texel's ray may be what the rasteriser found there, in distances. Triangles that reach around to the back of
-// the light turn inside out; what they would smear over the map is left out.
+// How far from a texel's ray may be what the rasteriser found there, in distances. Triangles that
+// reach around to the back of the light turn inside out; what they would smear over the map is left
+// out.
 const LONGEST_LEAP: f32 = 1.0;
 const PLANE_ROUNDING: f32 = 1e-6;
 
@@ -55,7 +57,8 @@ fn bent_depth(in: Bent) -> f32 {
     if !(share > 0.0) || leap > LONGEST_LEAP * distance {
         return 0.0;
     }
-    // The plane is known from one pixel to the next; what is rounded there grows with the way to the ray.
+    // The plane is known from one pixel to the next; what is rounded there grows with the way to
+    // the ray.
     let rounding = PLANE_ROUNDING * leap * max(length(across), length(down)) / abs(facing);
     return map_view.near * share * (1.0 - min(rounding, 0.01));
 }

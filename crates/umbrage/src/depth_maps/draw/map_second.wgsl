@@ -1,5 +1,6 @@
 // needs: map_depth, map_paraboloid
-// Depth of the second surface along each ray of the light, behind the first one (Woo; SG "Second Depth Shadow Maps").
+// Depth of the second surface along each ray of the light, behind the first one (Woo; SG "Second
+// Depth Shadow Maps").
 
 @group(3) @binding(0) var first_depth: texture_depth_2d;
 

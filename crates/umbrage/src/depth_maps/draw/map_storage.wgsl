@@ -1,7 +1,7 @@
 // How maps store depth.
 
-// Perspective views: falls linearly with the distance, from 1 at the light to 0 at the depth `farthest`, in place of
-// near / distance.
+// Perspective views: falls linearly with the distance, from 1 at the light to 0 at the depth
+// `farthest`, in place of near / distance.
 override LINEAR: bool = false;
 
 // What a map holds for a depth of 0 … 1. 0 is nothing, infinitely far.

@@ -1,4 +1,5 @@
-//! From views to maps: chooses what each layer has to draw, keeps what did not change, and draws the rest.
+//! From views to maps: chooses what each layer has to draw, keeps what did not change, and draws
+//! the rest.
 
 mod cache;
 mod caster_pass;

@@ -56,8 +56,8 @@ impl Movers {
         self.set.has(place)
     }
 
-    /// Takes movers for resting, all that can be at a time and not before they are half of all: whoever keeps those at
-    /// rest has to start anew.
+    /// Takes movers for resting, all that can be at a time and not before they are half of all:
+    /// whoever keeps those at rest has to start anew.
     fn let_rest(&mut self, rests: impl Fn(u32) -> bool) {
         let resting = self.moving.iter().filter(|place| rests(**place)).count();
         if resting == 0 || 2 * resting < self.moving.len() {

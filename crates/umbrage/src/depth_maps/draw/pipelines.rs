@@ -53,12 +53,13 @@ struct SecondPipelines {
     midpoint: wgpu::RenderPipeline,
 }
 
-/// Entry points: of vertices, of fragments that give the nearest surface, of those that give the second.
+/// Entry points: of vertices, of fragments that give the nearest surface, of those that give the
+/// second.
 type Entries = [(&'static str, Option<&'static str>, &'static str); 2];
 
 impl Kind {
-    /// For opaque and for alpha-masked casters. Fragment shaders that write depth forgo early depth tests, so a map that
-    /// is what the rasteriser makes of a matrix does without.
+    /// For opaque and for alpha-masked casters. Fragment shaders that write depth forgo early depth
+    /// tests, so a map that is what the rasteriser makes of a matrix does without.
     fn entries(self) -> Entries {
         match (self.paraboloid, self.linear) {
             (true, _) => [

@@ -1,4 +1,5 @@
-//! Whether what was recorded was submitted: a host may drop an encoder, and then maps are not what they are thought to be.
+//! Whether what was recorded was submitted: a host may drop an encoder, and then maps are not what
+//! they are thought to be.
 
 use std::sync::{
     Arc,

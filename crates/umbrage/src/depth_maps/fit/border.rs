@@ -8,8 +8,8 @@ use umbrage_core::{Bounds, LightShape};
 /// Widest border that a fit leaves, as a multiple of what is inside of it.
 const WIDEST: f64 = 2.0;
 
-/// How many texels around a receiver's own place may show what hides the light's rim from it: the light's size as the
-/// nearest caster sees it.
+/// How many texels around a receiver's own place may show what hides the light's rim from it: the
+/// light's size as the nearest caster sees it.
 pub(super) fn light_border(views: &[LightView], casters: &[Bounds], light: &LightShape) -> f64 {
     let texels = |view: &LightView| {
         if !view.is_perspective() {
@@ -27,7 +27,8 @@ pub(super) fn light_border(views: &[LightView], casters: &[Bounds], light: &Ligh
     views.iter().map(texels).fold(0.0, f64::max)
 }
 
-/// Texels that a view from a point needs around it to show what is `angle` radians outside of its sides.
+/// Texels that a view from a point needs around it to show what is `angle` radians outside of its
+/// sides.
 fn turned_border(view: &LightView, angle: f64) -> f64 {
     let half = 0.5 * f64::from(view.size);
     let [axis, per_texel] = texels_in_plane(view);

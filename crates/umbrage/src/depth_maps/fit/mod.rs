@@ -15,7 +15,8 @@ pub(super) struct Fitter {
     pub choice: Views,
     /// Keeps room for the light's extent.
     pub soft: bool,
-    /// Whose boxes those of the casters are, and when: the buffer of their instances and [`crate::casters::Moves::now`].
+    /// Whose boxes those of the casters are, and when: the buffer of their instances and
+    /// [`crate::casters::Moves::now`].
     scene_of: Option<(wgpu::Buffer, u64)>,
 }
 

@@ -20,7 +20,8 @@ pub(in crate::depth_maps) struct Views {
     depth_fit: bool,
 }
 
-/// Borders of steady views are whole multiples of so many texels: soft ones would change in every frame.
+/// Borders of steady views are whole multiples of so many texels: soft ones would change in every
+/// frame.
 const STEADY_BORDER: f64 = 8.0;
 
 impl Views {

@@ -22,7 +22,8 @@ shader_struct! {
     }
 }
 
-/// Narrowest half axis of a round light over its widest: what is flatter than that has no direction of its own.
+/// Narrowest half axis of a round light over its widest: what is flatter than that has no direction
+/// of its own.
 const FLATTEST: f64 = 1e-4;
 
 impl LightExtent {

@@ -87,7 +87,8 @@ fn warp(map_from_world: &DMat4) -> DVec4 {
     (inverse * w).truncate().extend(0.0).extend(0.0)
 }
 
-/// What a plane's normal has to do with the slope of its stored depth, see `plane_through` in `map_lookup.wgsl`.
+/// What a plane's normal has to do with the slope of its stored depth, see `plane_through` in
+/// `map_lookup.wgsl`.
 struct Slopes {
     right: DVec3,
     down: DVec3,
@@ -97,19 +98,21 @@ struct Slopes {
 impl Slopes {
     fn of(map_from_world: &DMat4, perspective: bool) -> Self {
         let rows = [0, 1, 2, 3].map(|i| map_from_world.row(i).truncate());
-        // In perspective texels times w, and w, are linear in p − light; for parallel light texels and depth are in p.
+        // In perspective texels times w, and w, are linear in p − light; for parallel light texels
+        // and depth are in p.
         let last = if perspective { rows[3] } else { rows[2] };
         let inverse = DMat3::from_cols(rows[0], rows[1], last).inverse();
         let axis = inverse.row(2);
-        // Any common factor will do: it cancels. Its sign makes n · axis positive for a plane that faces the light.
+        // Any common factor will do: it cancels. Its sign makes n · axis positive for a plane that
+        // faces the light.
         let scale = 1.0 / axis.length().max(f64::MIN_POSITIVE);
         let toward_light = if perspective { -scale } else { scale };
         Self { right: inverse.row(0) * -scale, down: inverse.row(1) * -scale, axis: axis * toward_light }
     }
 }
 
-/// How depth changes per metre along the light: perspective depth is near / distance, so its derivative is
-/// depth² / near; that of parallel depth is constant.
+/// How depth changes per metre along the light: perspective depth is near / distance, so its
+/// derivative is depth² / near; that of parallel depth is constant.
 fn per_metre(view: &LightView) -> f32 {
     let change = if view.is_perspective() { 1.0 / near(view) } else { view.clip_from_world.row(2).truncate().length() };
     change as f32

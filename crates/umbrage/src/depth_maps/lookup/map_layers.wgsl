@@ -5,8 +5,8 @@
 struct MapLayer {
     // Camera's normalised device coordinates to texels and stored depth, homogeneous.
     map_from_ndc: mat4x4f,
-    // What the normal of a plane has to do with the change of its stored depth per texel to the right and down, and
-    // what that is to be divided by.
+    // What the normal of a plane has to do with the change of its stored depth per texel to the
+    // right and down, and what that is to be divided by.
     slope_right: vec3f,
     // Change of stored depth per metre: of parallel views; in perspective, times the squared depth.
     per_metre: f32,
@@ -16,22 +16,26 @@ struct MapLayer {
     slope_axis: vec3f,
     // Of a split that stands still: texels along its borders that are for filters alone. Else 0.
     border: f32,
-    // How a small way of the receiver's moves its homogeneous texel. Of a paraboloid, its axes are in `slope_right`, `slope_down` and
-    // `slope_axis`, and this lacks what the change of the distance adds, see `texel_change`.
+    // How a small way of the receiver's moves its homogeneous texel. Of a paraboloid, its axes are
+    // in `slope_right`, `slope_down` and `slope_axis`, and this lacks what the change of the
+    // distance adds, see `texel_change`.
     texel_right: vec3f,
     pad_d: f32,
     texel_down: vec3f,
     pad_e: f32,
     texel_w: vec3f,
     pad_f: f32,
-    // Perspective: the texel straight ahead, and the tangent that a texel spans, of a paraboloid what it spans of its plane. Parallel: the
-    // metres that it spans. Warped: how w changes with texels times w, across and down.
+    // Perspective: the texel straight ahead, and the tangent that a texel spans, of a paraboloid
+    // what it spans of its plane. Parallel: the metres that it spans. Warped: how w changes with
+    // texels times w, across and down.
     axis: vec4f,
-    // Of a split that stands still: its texels are those of layer 0's matrix times x, plus zw; y is one over x.
+    // Of a split that stands still: its texels are those of layer 0's matrix times x, plus zw; y is
+    // one over x.
     from_first: vec4f,
 }
 
-// The light as a surface. A round one is the image of the unit sphere under its half axes, a flat one has two.
+// The light as a surface. A round one is the image of the unit sphere under its half axes, a flat
+// one has two.
 struct LightExtent {
     right: vec3f,
     pad: f32,
@@ -39,7 +43,8 @@ struct LightExtent {
     pad_a: f32,
     ahead: vec3f,
     pad_b: f32,
-    // Take a direction to where a round light is the unit sphere, but for a factor. Of a flat light, the last is its normal.
+    // Take a direction to where a round light is the unit sphere, but for a factor. Of a flat
+    // light, the last is its normal.
     unit_right: vec3f,
     pad_c: f32,
     unit_up: vec3f,
@@ -54,7 +59,8 @@ const MOST_LAYERS: u32 = 9u;
 struct MapLookup {
     eye: Eye,
     layers: array<MapLayer, MOST_LAYERS>,
-    // Camera's normalised device coordinates to the way from a point light, times w. Chooses the layer.
+    // Camera's normalised device coordinates to the way from a point light, times w. Chooses the
+    // layer.
     from_light: mat4x4f,
     // Rounding of stored depth: relative, and absolute.
     rounding: vec2f,

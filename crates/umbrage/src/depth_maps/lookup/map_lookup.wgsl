@@ -1,5 +1,6 @@
 // needs: map_layers
-// Where a receiver lies in the maps of a light, and how the depth there slopes: the one place that bias comes from.
+// Where a receiver lies in the maps of a light, and how the depth there slopes: the one place that
+// bias comes from.
 
 // What a pixel shows.
 struct Pixel {
@@ -16,9 +17,11 @@ fn gradient_noise(at: vec2f) -> f32 {
 struct MapPoint {
     // Texels; whole numbers are corners.
     texel: vec2f,
-    // near / distance, or what is left of a parallel view: the depth that projective maps would store there.
+    // near / distance, or what is left of a parallel view: the depth that projective maps would
+    // store there.
     depth: f32,
-    // Change of depth per texel along the receiver's plane: `along` over `across`, kept apart to spare a division.
+    // Change of depth per texel along the receiver's plane: `along` over `across`, kept apart to
+    // spare a division.
     along: vec2f,
     across: f32,
     // Of a paraboloid: what bends that, see `plane_step`.
@@ -27,7 +30,8 @@ struct MapPoint {
     is_own_shadow: bool,
     // How much the depth may be off by rounding.
     rounding: f32,
-    // One over the homogeneous texel's last coordinate, the distance along the axis of a perspective view; else 1.
+    // One over the homogeneous texel's last coordinate, the distance along the axis of a
+    // perspective view; else 1.
     inverse_w: f32,
     layer: u32,
     is_covered: bool,
@@ -44,11 +48,12 @@ const STEADY_FADE: f32 = 0.025;
 // Widest filter of a radius in metres.
 const MOST_TEXELS: f32 = 64.0;
 
-// Away from the axis, depth along it forgives more than depth along the ray: three times as much in the corners of a cube's face.
-// Paraboloids forgive that everywhere.
+// Away from the axis, depth along it forgives more than depth along the ray: three times as much in
+// the corners of a cube's face. Paraboloids forgive that everywhere.
 const BENT: f32 = 3.0;
 
-// A plane as the map sees it: `along` and `bend` over `across` are the change of its depth around the receiver.
+// A plane as the map sees it: `along` and `bend` over `across` are the change of its depth around
+// the receiver.
 struct MapPlane {
     along: vec2f,
     across: f32,
@@ -57,14 +62,17 @@ struct MapPlane {
 
 // Through a point whose texel and depth are known.
 //
-// On a plane with normal n depth is linear in the texel, in perspective too, since it is near / distance there.
-// With m = (n · right, n · down, n · axis) the plane is m₀ u + m₁ v + m₂ = c · near / depth in perspective, so that its
-// slope is depth · (m₀, m₁) / (m₀ u + m₁ v + m₂); for parallel light it is (m₀, m₁) / m₂.
+// On a plane with normal n depth is linear in the texel, in perspective too, since it is near /
+// distance there. With m = (n · right, n · down, n · axis) the plane is m₀ u + m₁ v + m₂ = c · near
+// / depth in perspective, so that its slope is depth · (m₀, m₁) / (m₀ u + m₁ v + m₂); for parallel
+// light it is (m₀, m₁) / m₂.
 //
-// In a warped view w is another linear function of the texel times w, with the change a. Then the slope is (m₀, m₁) / m₂ − a s, with s the
-// depth that the plane has at texel 0, (depth − (m₀ u + m₁ v) / m₂) / (1 − a₀ u − a₁ v).
+// In a warped view w is another linear function of the texel times w, with the change a. Then the
+// slope is (m₀, m₁) / m₂ − a s, with s the depth that the plane has at texel 0, (depth − (m₀ u + m₁
+// v) / m₂) / (1 − a₀ u − a₁ v).
 //
-// A place q in a paraboloid's plane is the unit way (2q, 1 − q²) / (1 + q²), and depth is proportional to n times that.
+// A place q in a paraboloid's plane is the unit way (2q, 1 − q²) / (1 + q²), and depth is
+// proportional to n times that.
 fn plane_through(point: MapPoint, normal: vec3f) -> MapPlane {
     let layer = point.layer;
     let m = vec2f(dot(normal, map.layers[layer].slope_right), dot(normal, map.layers[layer].slope_down));
@@ -106,7 +114,8 @@ fn plane_step(point: MapPoint, along: vec2f, bend: f32, offset: vec2f) -> f32 {
     return step;
 }
 
-// How a small way of the receiver's moves its homogeneous texel; `unit` is the unit way to it from the light.
+// How a small way of the receiver's moves its homogeneous texel; `unit` is the unit way to it from
+// the light.
 fn texel_change(layer: u32, way: vec3f, unit: vec3f) -> vec3f {
     let change = vec3f(
         dot(map.layers[layer].texel_right, way),
@@ -134,8 +143,9 @@ fn texel_step(layer: u32, place: vec4f, change: vec4f) -> vec3f {
     return change.xyw;
 }
 
-// The split of a place. A steady map covers a sphere around its split, so it is used beyond the split's end for as long as it
-// covers what is there, and is blended with the next one towards its own border.
+// The split of a place. A steady map covers a sphere around its split, so it is used beyond the
+// split's end for as long as it covers what is there, and is blended with the next one towards its
+// own border.
 fn split_of(pixel: Pixel, first: MapPoint) -> Split {
     let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
     var split = split_at(dot(map.view_distance, ndc) / eye_w(map.eye, ndc));
@@ -157,7 +167,8 @@ fn steady_texel(first: MapPoint, layer: u32) -> vec2f {
     return first.texel * from_first.x + from_first.zw;
 }
 
-// Share of a place that a steady split's map has: all within its borders, and where splits are mixed none at them.
+// Share of a place that a steady split's map has: all within its borders, and where splits are
+// mixed none at them.
 fn steady_share(first: MapPoint, layer: u32) -> f32 {
     let texel = steady_texel(first, layer);
     let inside = min(texel, map.size - texel) - map.layers[layer].border;
@@ -182,7 +193,8 @@ fn side_of(pixel: Pixel) -> u32 {
     return side;
 }
 
-// The layer of a pixel. `first` is its place by layer 0's matrix: that in the maps of splits that stand still differs by scale and offset alone.
+// The layer of a pixel. `first` is its place by layer 0's matrix: that in the maps of splits that
+// stand still differs by scale and offset alone.
 fn layer_of_pixel(pixel: Pixel, first: MapPoint) -> Split {
     if LAYOUT == SPLITS {
         var split = split_of(pixel, first);
@@ -262,7 +274,8 @@ fn point_by_matrix(pixel: Pixel, layer: u32) -> MapPoint {
     return point;
 }
 
-// Change of depth per texel. A plane seen edge-on has no slope to speak of; the largest that helps spans all depth.
+// Change of depth per texel. A plane seen edge-on has no slope to speak of; the largest that helps
+// spans all depth.
 fn map_slope(point: MapPoint) -> vec2f {
     let slope = clamp(point.along / point.across, vec2f(-1.0), vec2f(1.0));
     return select(slope, vec2f(0.0), point.across == 0.0);
@@ -277,7 +290,8 @@ fn depth_along(point: MapPoint, slope: vec2f, offset: vec2f) -> f32 {
     return point.depth + dot(slope, offset);
 }
 
-// What comparing has to forgive when the compared surface may be `texels` away from the receiver's own place.
+// What comparing has to forgive when the compared surface may be `texels` away from the receiver's
+// own place.
 fn map_bias(point: MapPoint, slope: vec2f, texels: f32) -> f32 {
     return map.bias * (texels * (abs(slope.x) + abs(slope.y)) + point.rounding);
 }
@@ -286,7 +300,8 @@ fn map_bias(point: MapPoint, slope: vec2f, texels: f32) -> f32 {
 fn texel_depth(point: MapPoint) -> f32 {
     let axis = map.layers[point.layer].axis;
     if WARPED {
-        // Texels across and down as they change with the place, times w: what a texel spans, times w over that, is at most this.
+        // Texels across and down as they change with the place, times w: what a texel spans, times
+        // w over that, is at most this.
         let right = map.layers[point.layer].texel_right - point.texel.x * map.layers[point.layer].texel_w;
         let down = map.layers[point.layer].texel_down - point.texel.y * map.layers[point.layer].texel_w;
         return map.layers[point.layer].per_metre * sqrt(dot(right, right) + dot(down, down)) / length(cross(right, down));
@@ -299,8 +314,8 @@ fn texel_depth(point: MapPoint) -> f32 {
     return wide;
 }
 
-// Radius of a filter: so many texels, or as many as `softness` is at the receiver. Less than half a texel is no filter, and more
-// than MOST_TEXELS are not looked at.
+// Radius of a filter: so many texels, or as many as `softness` is at the receiver. Less than half a
+// texel is no filter, and more than MOST_TEXELS are not looked at.
 fn filter_radius(point: MapPoint, texels: f32) -> f32 {
     let axis = map.layers[point.layer].axis;
     let distance = select(1.0, 1.0 / (map.layers[point.layer].per_metre * max(point.depth, 1e-30)), PERSPECTIVE);
@@ -308,14 +323,15 @@ fn filter_radius(point: MapPoint, texels: f32) -> f32 {
     return select(texels, soft, map.softness > 0.0);
 }
 
-// What comparing `texels` away from the receiver has to forgive besides, since curved surfaces bend away from its plane.
+// What comparing `texels` away from the receiver has to forgive besides, since curved surfaces bend
+// away from its plane.
 fn map_bend(point: MapPoint, texels: f32) -> f32 {
     return map.bias * BEND * texels * texel_depth(point);
 }
 
-// Whether a receiver is lit when the depth `stored` lies `offset` texels away from it: its plane, continued to there, is compared
-// with forgiveness for a crease between and for `bend`. All is multiplied by |across|, so that nothing is divided and a plane
-// seen edge-on counts as lit.
+// Whether a receiver is lit when the depth `stored` lies `offset` texels away from it: its plane,
+// continued to there, is compared with forgiveness for a crease between and for `bend`. All is
+// multiplied by |across|, so that nothing is divided and a plane seen edge-on counts as lit.
 fn is_lit_beyond(point: MapPoint, offset: vec2f, stored: f32, bend: f32) -> bool {
     let toward = plane_step(point, point.along, point.bend, offset) * sign(point.across);
     let crease = map.bias * CREASE * (abs(point.along.x) + abs(point.along.y));

@@ -1,7 +1,8 @@
 // needs: map_visibility
-// The first phase of a look-up in two: what is quick to decide. The technique says the share of a covered point that is lit, or a negative
-// number where that takes more: `fn quick_share(point: MapPoint, pixel: Pixel) -> f32`. The second phase, `visibility`, is drawn
-// where this one discards.
+// The first phase of a look-up in two: what is quick to decide. The technique says the share of a
+// covered point that is lit, or a negative number where that takes more: `fn quick_share(point:
+// MapPoint, pixel: Pixel) -> f32`. The second phase, `visibility`, is drawn where this one
+// discards.
 
 @fragment
 fn quick_visibility(@builtin(position) at: vec4f) -> @location(0) f32 {

@@ -1,6 +1,6 @@
 // needs: fullscreen, map_lookup
-// The full-screen pass of a technique with maps. The technique says which share of a covered point is lit:
-// `fn lit_share(point: MapPoint, pixel: Pixel) -> f32`.
+// The full-screen pass of a technique with maps. The technique says which share of a covered point
+// is lit: `fn lit_share(point: MapPoint, pixel: Pixel) -> f32`.
 
 // What becomes of a surface that faces away from the light; whatever is less counts as none.
 override OWN_SHADOW: f32 = 0.0;
@@ -14,7 +14,8 @@ fn is_drawn(pixel: Pixel) -> bool {
     return pixel.depth != map.eye.background_depth;
 }
 
-// Nothing drawn, no view of the light there, or turned away from it. One branch for all three: each costs.
+// Nothing drawn, no view of the light there, or turned away from it. One branch for all three: each
+// costs.
 fn is_settled(pixel: Pixel, point: MapPoint) -> bool {
     return !(is_drawn(pixel) && point.is_covered) || point.is_own_shadow;
 }

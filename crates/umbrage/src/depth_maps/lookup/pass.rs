@@ -132,7 +132,8 @@ impl Lookup {
         passes.upload(&self.uniforms, bytemuck::bytes_of(&self.data));
     }
 
-    /// Writes 1 everywhere where there is nothing to look up. `more` is what the technique binds as group 2. Returns the number of draws.
+    /// Writes 1 everywhere where there is nothing to look up. `more` is what the technique binds as
+    /// group 2. Returns the number of draws.
     pub fn record(
         &self,
         passes: &mut Passes<'_>,

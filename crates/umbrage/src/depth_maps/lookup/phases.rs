@@ -1,5 +1,5 @@
-//! A look-up's draws. Some decide what is quick everywhere, and the rest only where that left it open: the stencil remembers where, so that
-//! whole blocks of pixels are skipped without a branch.
+//! A look-up's draws. Some decide what is quick everywhere, and the rest only where that left it
+//! open: the stencil remembers where, so that whole blocks of pixels are skipped without a branch.
 
 use crate::{fullscreen::target_texture, gpu::Gpu};
 

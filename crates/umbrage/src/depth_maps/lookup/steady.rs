@@ -1,11 +1,13 @@
-//! What maps of splits that stand still share: their axes, and depth. A receiver's place in one of them gives that in all others.
+//! What maps of splits that stand still share: their axes, and depth. A receiver's place in one of
+//! them gives that in all others.
 
 use super::layer::MapLayer;
 use crate::depth_maps::texels::{texels_from_clip, texels_in_plane};
 use umbrage_core::glam::DVec2;
 use umbrage_core::light_view::LightView;
 
-/// Makes layer 0's matrix that of the first view, whether or not layer 0 is rendered, and has the texels of all others come from its texels.
+/// Makes layer 0's matrix that of the first view, whether or not layer 0 is rendered, and has the
+/// texels of all others come from its texels.
 pub(super) fn share_first(views: &[LightView], layers: &mut [MapLayer]) {
     let Some(first) = views.first().filter(|view| view.steady_border.is_some()) else { return };
     for layer in layers.iter_mut() {
@@ -29,7 +31,8 @@ fn from_first(first: &LightView, view: &LightView) -> [f32; 4] {
     [scale, scale.recip(), offset.x, offset.y].map(|v| v as f32)
 }
 
-/// The texel of a place that all views of a light share, straight ahead of it or the world's origin, and how wide a texel is.
+/// The texel of a place that all views of a light share, straight ahead of it or the world's
+/// origin, and how wide a texel is.
 fn place(view: &LightView) -> (DVec2, f64) {
     let [straight, wide] = texels_in_plane(view);
     let map_from_world = texels_from_clip(view.size) * view.clip_from_world;

@@ -99,8 +99,9 @@ fn largest_coordinate(view: &View<'_>) -> f64 {
     light.max(casters.largest_coordinate())
 }
 
-/// Depth 0…1 in single precision; perspective depth keeps its relative precision, parallel depth does not. In a
-/// paraboloid each texel's depth comes from differences between neighbours, which round more.
+/// Depth 0…1 in single precision; perspective depth keeps its relative precision, parallel depth
+/// does not. In a paraboloid each texel's depth comes from differences between neighbours, which
+/// round more.
 fn rounding(maps: &MapFrame) -> [f32; 2] {
     match maps.views.first() {
         Some(view) if view.paraboloid.is_some() => [2e-5, 0.0],

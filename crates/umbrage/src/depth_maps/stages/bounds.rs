@@ -1,5 +1,5 @@
-//! Nearest depths of ever larger parts of a map: what lets soft filters skip what is surely lit, and look for blockers
-//! only as far as there can be some.
+//! Nearest depths of ever larger parts of a map: what lets soft filters skip what is surely lit,
+//! and look for blockers only as far as there can be some.
 
 use crate::depth_maps::frame::MapFrame;
 use crate::fullscreen::{STORAGE, UNIFORM, bind, layout};

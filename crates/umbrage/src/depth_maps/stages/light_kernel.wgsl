@@ -1,10 +1,11 @@
 // needs: map_lookup
 // The light's surface as a receiver sees it through the map: which texels hide which points of it.
 //
-// A blocker at share t of the way from the receiver p to the point c + e of a light around c stands where the view from c
-// shows p + r e, with r = t / (1 − t): its *reach*. Texels are homogeneous and linear there, so a light of any shape and
-// orientation, seen at one reach, is a small picture of itself in the map. That is the penumbra's width as a length at the
-// receiver, (d_receiver − d_blocker) / d_blocker · w_light (ZA 3.5), brought to the map. For parallel light r is the
+// A blocker at share t of the way from the receiver p to the point c + e of a light around c stands
+// where the view from c shows p + r e, with r = t / (1 − t): its *reach*. Texels are homogeneous
+// and linear there, so a light of any shape and orientation, seen at one reach, is a small picture
+// of itself in the map. That is the penumbra's width as a length at the receiver, (d_receiver −
+// d_blocker) / d_blocker · w_light (ZA 3.5), brought to the map. For parallel light r is the
 // distance along the light, and e the tangent of an angle.
 
 struct LightKernel {
@@ -13,14 +14,16 @@ struct LightKernel {
     up: vec2f,
     // How much nearer to the light's own plane a point at these axes is, per reach: perspective.
     nearer: vec2f,
-    // Change of stored depth per texel along the plane through the receiver that is parallel to the light's.
+    // Change of stored depth per texel along the plane through the receiver that is parallel to the
+    // light's.
     facing: vec2f,
     // Of a paraboloid: what bends that.
     facing_bend: f32,
-    // The light's centre and half axes above the receiver's plane. A point of it is below the horizon where they add up to less
-    // than 0.
+    // The light's centre and half axes above the receiver's plane. A point of it is below the
+    // horizon where they add up to less than 0.
     horizon: vec3f,
-    // From the receiver to the light's centre (1 for parallel light), and from there to its farthest point.
+    // From the receiver to the light's centre (1 for parallel light), and from there to its
+    // farthest point.
     distance: f32,
     radius: f32,
 }

@@ -1,6 +1,6 @@
 // needs: map_cells
-// Nearest depths of ever larger cells of a map: level 0 from the map, each further one from 2 × 2 cells of the one before. Cells that
-// lie beyond the map repeat its border.
+// Nearest depths of ever larger cells of a map: level 0 from the map, each further one from 2 × 2
+// cells of the one before. Cells that lie beyond the map repeat its border.
 
 struct MapBoundsPass {
     layer: u32,

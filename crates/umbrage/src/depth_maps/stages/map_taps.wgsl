@@ -3,7 +3,8 @@
 
 // Sets of taps, and which one each pixel of a tile takes.
 struct TapsHead {
-    // Pixels across and down after which sets repeat; 0 chooses by interleaved gradient noise (Jimenez 2014).
+    // Pixels across and down after which sets repeat; 0 chooses by interleaved gradient noise
+    // (Jimenez 2014).
     tile: u32,
     sets: u32,
     count: u32,

@@ -1,4 +1,5 @@
-//! What filters that follow the light's size bind besides the maps: taps for search and filter, and bounds of depth.
+//! What filters that follow the light's size bind besides the maps: taps for search and filter, and
+//! bounds of depth.
 
 use super::bounds::BoundsPyramid;
 use super::stage::Stage;

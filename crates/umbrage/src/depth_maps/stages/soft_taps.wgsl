@@ -1,5 +1,6 @@
 // needs: light_kernel, map_taps, map_cells
-// Filters that follow the light's size: how far to look, what is in the way, and which share of the light it hides.
+// Filters that follow the light's size: how far to look, what is in the way, and which share of the
+// light it hides.
 
 @group(2) @binding(1) var<storage, read> map_bounds: MapBounds;
 
@@ -27,7 +28,8 @@ fn kernel_box(kernel: LightKernel, reach: f32) -> vec2f {
     return (abs(kernel.right) + abs(kernel.up)) * (reach / clamp(nearest, 0.25, 1.0));
 }
 
-// Reach of what hides the light from the receiver where `stored` was found; negative where that is not in the way.
+// Reach of what hides the light from the receiver where `stored` was found; negative where that is
+// not in the way.
 fn blocker(point: MapPoint, kernel: LightKernel, stored: Stored) -> f32 {
     if is_lit(point, stored.offset, stored.depth) {
         return -1.0;
@@ -35,8 +37,9 @@ fn blocker(point: MapPoint, kernel: LightKernel, stored: Stored) -> f32 {
     return reach_of(point, kernel, stored.offset, stored.depth);
 }
 
-// Reach of a blocker of this depth somewhere in a cell of texels, or more. In perspective, by the triangle of receiver, blocker and
-// light: a blocker at distance b of a light of radius R has (1 + reach) b ≤ d + reach R, with d the receiver's distance.
+// Reach of a blocker of this depth somewhere in a cell of texels, or more. In perspective, by the
+// triangle of receiver, blocker and light: a blocker at distance b of a light of radius R has (1 +
+// reach) b ≤ d + reach R, with d the receiver's distance.
 fn reach_of_cell(point: MapPoint, kernel: LightKernel, low: vec2f, high: vec2f, nearest: f32) -> f32 {
     if !PERSPECTIVE {
         return reach_of(point, kernel, vec2f(0.0), nearest);
@@ -52,8 +55,9 @@ fn reach_beyond(kernel: LightKernel, distance: f32) -> f32 {
     return (kernel.distance - distance) / max(distance - kernel.radius, 1e-3 * distance);
 }
 
-// Largest reach that a blocker can have that hides a point of the light and lies within `reach`, from the cells of the pyramid that
-// are a few to the box. What a cell holds counts only if the light, seen at its reach, gets as far as the cell.
+// Largest reach that a blocker can have that hides a point of the light and lies within `reach`,
+// from the cells of the pyramid that are a few to the box. What a cell holds counts only if the
+// light, seen at its reach, gets as far as the cell.
 fn reach_within(point: MapPoint, kernel: LightKernel, reach: f32) -> f32 {
     let half = kernel_box(kernel, reach);
     let last = vec2f(map.size - 1.0);
@@ -82,8 +86,8 @@ fn reach_within(point: MapPoint, kernel: LightKernel, reach: f32) -> f32 {
     return farthest;
 }
 
-// Largest reach that any blocker can have: starts at that of the nearest caster, and no more than the whole map, and shrinks to what is really there. 0 where there is
-// none.
+// Largest reach that any blocker can have: starts at that of the nearest caster, and no more than
+// the whole map, and shrinks to what is really there. 0 where there is none.
 fn farthest_reach(point: MapPoint, kernel: LightKernel) -> f32 {
     let box = kernel_box(kernel, 1.0);
     let whole = map.size / max(max(box.x, box.y), 1e-6);
@@ -100,7 +104,8 @@ fn farthest_reach(point: MapPoint, kernel: LightKernel) -> f32 {
     return max(reach, 0.0);
 }
 
-// What the search found: blockers as a plane, whose reach is a linear function of the place in the search.
+// What the search found: blockers as a plane, whose reach is a linear function of the place in the
+// search.
 struct Blockers {
     count: f32,
     // Reach in the middle, and its change over the light's half axes at the reach of the search.
@@ -110,8 +115,8 @@ struct Blockers {
     most: f32,
 }
 
-// Looks for blockers within `reach`. A mean of their reaches alone would be that of the middle of what was found, and shadows end
-// at its border.
+// Looks for blockers within `reach`. A mean of their reaches alone would be that of the middle of
+// what was found, and shadows end at its border.
 fn search_blockers(point: MapPoint, kernel: LightKernel, first: u32, reach: f32) -> Blockers {
     var any = vec2f(0.0);
     var count = 0.0;
@@ -126,7 +131,8 @@ fn search_blockers(point: MapPoint, kernel: LightKernel, first: u32, reach: f32)
         let stored = stored_near(point, kernel_offset(kernel, at, reach));
         let found = blocker(point, kernel, stored);
         any += select(vec2f(0.0), vec2f(found, 1.0), found > 0.0);
-        // What is nearer to the receiver hides points of the light further out: beyond its rim it hides nothing.
+        // What is nearer to the receiver hides points of the light further out: beyond its rim it
+        // hides nothing.
         if found > 0.0 && found >= reach * rim(at) {
             count += 1.0;
             sum += vec3f(at, found);
@@ -137,7 +143,8 @@ fn search_blockers(point: MapPoint, kernel: LightKernel, first: u32, reach: f32)
         }
     }
     if count == 0.0 {
-        // Nothing that surely hides the light; what there is nearer to the receiver may extend to where it does.
+        // Nothing that surely hides the light; what there is nearer to the receiver may extend to
+        // where it does.
         let mean = any.x / max(any.y, 1.0);
         return Blockers(any.y, mean, vec2f(0.0), mean, mean);
     }
@@ -160,8 +167,8 @@ fn rim(at: vec2f) -> f32 {
     return select(length(at), max(abs(at.x), abs(at.y)), taps.head.is_square != 0u);
 }
 
-// Whether the tap finds the point `at` of the light in sight. What was found much nearer to the receiver than was looked for hides a
-// point farther out; beyond the rim that is none.
+// Whether the tap finds the point `at` of the light in sight. What was found much nearer to the
+// receiver than was looked for hides a point farther out; beyond the rim that is none.
 fn is_seen(point: MapPoint, kernel: LightKernel, at: vec2f, reach: f32) -> bool {
     let found = blocker(point, kernel, stored_near(point, kernel_offset(kernel, at, reach)));
     return is_above_horizon(kernel, at) && !(found > 0.0 && found * SLACK >= reach * rim(at));

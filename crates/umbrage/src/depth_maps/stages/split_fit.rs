@@ -1,6 +1,8 @@
-//! Splits fitted to the depths that are visible, by compute: nothing is read back, and the CPU never knows.
+//! Splits fitted to the depths that are visible, by compute: nothing is read back, and the CPU
+//! never knows.
 //!
-//! Sources: Lauritzen, Salvi and Lefohn, "Sample Distribution Shadow Maps", 2011 (the range; parts are cropped by their corners).
+//! Sources: Lauritzen, Salvi and Lefohn, "Sample Distribution Shadow Maps", 2011 (the range; parts
+//! are cropped by their corners).
 
 use crate::depth_maps::frame::MapFrame;
 use crate::depth_maps::layers::MOST_LAYERS;
@@ -149,7 +151,8 @@ impl SplitFitter {
     }
 }
 
-/// Homogeneous texels of the four corners of the camera's view at distance 0 along it, and their change per metre.
+/// Homogeneous texels of the four corners of the camera's view at distance 0 along it, and their
+/// change per metre.
 fn corners(view: &View<'_>, light_view: &LightView, eye_from_ndc: &DMat4) -> [[[f32; 4]; 4]; 2] {
     let map_from_eye =
         texels_from_clip(light_view.size) * light_view.clip_from_world * DMat4::from_translation(view.camera.eye);

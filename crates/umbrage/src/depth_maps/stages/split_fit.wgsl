@@ -1,12 +1,14 @@
 // needs: map_layers
-// Fits splits to the depths that are visible: finds their range, and crops one view of the light to each part of it.
+// Fits splits to the depths that are visible: finds their range, and crops one view of the light to
+// each part of it.
 
 struct SplitFit {
     eye: Eye,
     // The view that is cropped: it covers all parts.
     base: MapLayer,
     clip_from_world: mat4x4f,
-    // Homogeneous texels (x, y and w) of the corners of the camera's view at distance 0, and their change per metre of it.
+    // Homogeneous texels (x, y and w) of the corners of the camera's view at distance 0, and their
+    // change per metre of it.
     corners: array<vec4f, 4>,
     ways: array<vec4f, 4>,
     // As `MapLookup` has it.
@@ -81,7 +83,8 @@ fn border(near: f32, far: f32, i: u32) -> f32 {
     return select(uniform_at, mix(uniform_at, logarithmic, fit.lambda), near > 0.0);
 }
 
-// What a part of the view covers in the base view, low and high texels; all of it where a corner is behind the light.
+// What a part of the view covers in the base view, low and high texels; all of it where a corner is
+// behind the light.
 fn part_in_view(from_distance: f32, to_distance: f32) -> vec4f {
     var low = vec2f(1e30);
     var high = vec2f(-1e30);

@@ -20,8 +20,8 @@ pub trait Stage: Send {
     /// As [`crate::Technique::prepare`].
     fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, frame: &MapFrame) -> Result<(), Error>;
 
-    /// Passes after the maps are drawn, which are in [`MapFrame::texture`]. To draw casters into a map of its own a stage has a
-    /// [`crate::depth_maps::CasterPass`]. Returns the number of draws.
+    /// Passes after the maps are drawn, which are in [`MapFrame::texture`]. To draw casters into a
+    /// map of its own a stage has a [`crate::depth_maps::CasterPass`]. Returns the number of draws.
     fn record(&mut self, _passes: &mut Passes<'_>, _frame: &MapFrame, _casters: &Casters) -> u32 {
         0
     }

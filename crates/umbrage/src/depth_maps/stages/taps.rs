@@ -52,7 +52,8 @@ pub(crate) struct Taps {
 }
 
 impl Taps {
-    /// Jittered by `noise`, which repeats after `tile` pixels, with so many taps for the search (0 for none) and for the filter.
+    /// Jittered by `noise`, which repeats after `tile` pixels, with so many taps for the search (0
+    /// for none) and for the filter.
     pub(crate) fn new(noise: Noise, tile: u32, search: u32, filter: u32) -> Self {
         let pattern = match noise {
             Noise::Stratified => Pattern::Stratified,
@@ -73,7 +74,8 @@ impl Taps {
         Self { pattern: None, tile: 1, search: search * search, filter: filter * filter, made: None }
     }
 
-    /// Makes the table for `shape` where it is another than before, and then returns true. `textures` are the scene's.
+    /// Makes the table for `shape` where it is another than before, and then returns true.
+    /// `textures` are the scene's.
     pub(crate) fn prepare(&mut self, gpu: &Gpu, shape: Shape, textures: &[Texture]) -> bool {
         if self.made.as_ref().is_some_and(|(s, _)| *s == shape) {
             return false;
@@ -125,8 +127,8 @@ impl Taps {
     }
 }
 
-/// Widens a grid until its outer taps are on the rim: a search that leaves the rim out takes the ends of a penumbra for lit and
-/// for umbra.
+/// Widens a grid until its outer taps are on the rim: a search that leaves the rim out takes the
+/// ends of a penumbra for lit and for umbra.
 fn to_rim(mut grid: TapTable) -> TapTable {
     let side = grid.taps.isqrt().max(2) as f32;
     grid.offsets.iter_mut().flatten().for_each(|x| *x *= side / (side - 1.0));

@@ -1,6 +1,8 @@
-//! Parallel-split shadow maps: what the camera sees is split by distance, and each part has a map of its own.
+//! Parallel-split shadow maps: what the camera sees is split by distance, and each part has a map
+//! of its own.
 //!
-//! Sources: Zhang et al., "Parallel-Split Shadow Maps for Large-Scale Virtual Environments", 2006; FE 3 and 5; SG "Extensions".
+//! Sources: Zhang et al., "Parallel-Split Shadow Maps for Large-Scale Virtual Environments", 2006;
+//! FE 3 and 5; SG "Extensions".
 
 use crate::depth_maps::{
     Blend, Fitting, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS, SPLIT_FIT_SHADER, Softness, Splits,

@@ -1,5 +1,5 @@
-// The exponential of depth, kept as its logarithm over the exponent: a soft maximum of depth, in its range and with its precision whatever
-// the exponent is.
+// The exponential of depth, kept as its logarithm over the exponent: a soft maximum of depth, in
+// its range and with its precision whatever the exponent is.
 
 override EXPONENT: f32 = 200.0;
 

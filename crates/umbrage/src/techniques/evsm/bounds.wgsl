@@ -14,8 +14,9 @@ fn bound(mean: f32, square: f32, warped: f32) -> f32 {
     return largest_share(mean, variance, warped);
 }
 
-// `variance` is the filter's. The mean of a slanted plane's falling warp is that of a point somewhat nearer to the light, by a
-// second-order term: for depths of a normal distribution exactly half the exponent times their variance.
+// `variance` is the filter's. The mean of a slanted plane's falling warp is that of a point
+// somewhat nearer to the light, by a second-order term: for depths of a normal distribution exactly
+// half the exponent times their variance.
 fn share_of(m: vec4f, receiver: LinearPoint, variance: f32) -> f32 {
     let grown = bound(m.x, m.y, warps(receiver.depth).x);
     if COMPONENTS < 4u {

@@ -1,6 +1,8 @@
-//! Exponential variance shadow maps: variance shadow maps of depths that an exponential spreads out.
+//! Exponential variance shadow maps: variance shadow maps of depths that an exponential spreads
+//! out.
 //!
-//! Sources: FE 2.3.1; Lauritzen and McCool, "Layered Variance Shadow Maps", 2008, section 3; Lauritzen's thesis, 2008.
+//! Sources: FE 2.3.1; Lauritzen and McCool, "Layered Variance Shadow Maps", 2008, section 3;
+//! Lauritzen's thesis, 2008.
 
 mod fixed;
 mod soft;
@@ -50,9 +52,9 @@ settings! {
 }
 
 impl Evsm {
-    /// Steepness of the growing exponential over half the range of depth. Its square is to stay in the format's range; and
-    /// within a filter as wide as `radius` depth changes by more where the map is coarser, and a steep exponential then sees
-    /// the nearest of it alone.
+    /// Steepness of the growing exponential over half the range of depth. Its square is to stay in
+    /// the format's range; and within a filter as wide as `radius` depth changes by more where the
+    /// map is coarser, and a steep exponential then sees the nearest of it alone.
     fn growth(&self, size: u32, steepest: f64) -> f64 {
         f64::min(steepest, 0.25 * f64::from(size) / self.filtering.radius.max(1.0))
     }

@@ -1,13 +1,15 @@
 // needs: map_visibility, moments_soft, soft_bounds
-// Exponential variance shadow maps whose filter follows the light. Blockers are looked for as `pcss` does. The filter's taps are few: each
-// sees all that lies between it and its neighbours, with the receiver's plane continued to its own place.
+// Exponential variance shadow maps whose filter follows the light. Blockers are looked for as
+// `pcss` does. The filter's taps are few: each sees all that lies between it and its neighbours,
+// with the receiver's plane continued to its own place.
 
 // Texels of a level over the distance between taps.
 const COARSE: f32 = 1.2;
 // How far the receiver's plane reaches within a tap, texels of the level.
 const SPREAD: f32 = 0.7;
-// Reach of what surely hides nothing, and of what surely hides a point of the light, over that of the point. The reach of what a tap
-// sees is an estimate, so that there is some way between the two.
+// Reach of what surely hides nothing, and of what surely hides a point of the light, over that of
+// the point. The reach of what a tap sees is an estimate, so that there is some way between the
+// two.
 const LOOSE: f32 = 0.7;
 const TIGHT: f32 = 0.95;
 
@@ -35,7 +37,8 @@ fn cover_near(point: MapPoint, kernel: LightKernel, plane: Plane, offset: vec2f,
     let found = moments_near(point, offset, level);
     let stored = max(depth_along(point, plane.slope, found.offset) + plane.bias, LEAST_STORED);
     let receiver = linear_depth(moments, stored);
-    // What slopes towards the light within the tap is no blocker: steep exponentials would take it for one.
+    // What slopes towards the light within the tap is no blocker: steep exponentials would take it
+    // for one.
     let nearest = receiver - plane.change * moments.scale * f32(1u << level) * SPREAD;
     let lit = min(depth_share(found.moments, receiver), warped_share(found.moments, nearest));
     // A receiver and a blocker, two depths, have the mean that was found.
@@ -47,7 +50,8 @@ fn cover_near(point: MapPoint, kernel: LightKernel, plane: Plane, offset: vec2f,
 struct Filter {
     // Of each tap's level, and a share of 1 before it is the next.
     level: f32,
-    // Shrinks the places of taps, so that with what each of them sees the light is as large as it is.
+    // Shrinks the places of taps, so that with what each of them sees the light is as large as it
+    // is.
     shrink: vec2f,
 }
 
@@ -78,7 +82,8 @@ fn share_above_horizon(kernel: LightKernel, at: vec2f) -> f32 {
     return clamp(0.5 + 0.5 * height / max(half, 1e-30), 0.0, 1.0);
 }
 
-// How much of what has this reach hides a point of the light, and not one beyond its rim: see `is_seen`.
+// How much of what has this reach hides a point of the light, and not one beyond its rim: see
+// `is_seen`.
 fn share_within(reach: f32, least: f32) -> f32 {
     return clamp((reach - LOOSE * least) / max((TIGHT - LOOSE) * least, 1e-30), 0.0, 1.0);
 }

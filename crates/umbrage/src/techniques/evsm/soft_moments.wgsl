@@ -12,7 +12,8 @@ fn moments_of(depth: f32) -> vec4f {
     return vec4f(w, w * w, depth, depth * depth);
 }
 
-// For even steps from 0 to 1: the warp over its largest value, and as much of the square of depth as the variance needs.
+// For even steps from 0 to 1: the warp over its largest value, and as much of the square of depth
+// as the variance needs.
 fn packed(m: vec4f) -> vec4f {
     let largest = warp(1.0);
     return vec4f(m.x / largest, m.y / (largest * largest), m.z, 4.0 * (m.z - m.w));

@@ -1,4 +1,5 @@
-//! The casters of a frame as trees of boxes: one over all of them, and one over the triangles of each mesh.
+//! The casters of a frame as trees of boxes: one over all of them, and one over the triangles of
+//! each mesh.
 
 use super::grown::Grown;
 use super::tree::{Boxed, TreeNode, append};

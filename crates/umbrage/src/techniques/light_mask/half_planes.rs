@@ -1,15 +1,18 @@
-//! The samples of a light in every half plane of its face (Schwarz and Stamminger 2007; Sintorn et al. 2008): what a triangle hides is that of its three edges, each looked up.
+//! The samples of a light in every half plane of its face (Schwarz and Stamminger 2007; Sintorn et
+//! al. 2008): what a triangle hides is that of its three edges, each looked up.
 
 use umbrage_core::glam::DVec2;
 
-/// Steps of a half plane's normal over half a turn, and of its distance from the middle. An edge is off by half a step: less than samples are apart.
+/// Steps of a half plane's normal over half a turn, and of its distance from the middle. An edge is
+/// off by half a step: less than samples are apart.
 pub(super) const TURNS: u32 = 128;
 pub(super) const DISTANCES: u32 = 256;
 
 /// Samples in four words.
 const FOUR: usize = 128;
 
-/// For each turn and distance a bit for every sample that is inside, in groups of four words. `reach`: how far from the middle there are samples.
+/// For each turn and distance a bit for every sample that is inside, in groups of four words.
+/// `reach`: how far from the middle there are samples.
 pub(super) fn half_planes(samples: &[DVec2], reach: f64) -> Vec<[u32; 4]> {
     let fours = samples.len().div_ceil(FOUR);
     let mut table = vec![[0; 4]; (TURNS * DISTANCES) as usize * fours];
@@ -28,7 +31,8 @@ pub(super) fn half_planes(samples: &[DVec2], reach: f64) -> Vec<[u32; 4]> {
     table
 }
 
-/// The first distance at which a sample at this height is inside; that of a step is in its middle. None is in the first and all are in the last one.
+/// The first distance at which a sample at this height is inside; that of a step is in its middle.
+/// None is in the first and all are in the last one.
 fn first_step(height: f64, reach: f64) -> u32 {
     let steps = f64::from(DISTANCES - 2);
     let step = (0.5 - 0.5 * height / reach) * steps + 0.5;

@@ -1,6 +1,7 @@
 // needs: fullscreen, receivers, area_light
-// The light as a set of samples: every triangle before it removes those that it hides, so that whatever casters share counts
-// once. Triangles are found in hierarchies of boxes by the pyramid from the point to the light.
+// The light as a set of samples: every triangle before it removes those that it hides, so that
+// whatever casters share counts once. Triangles are found in hierarchies of boxes by the pyramid
+// from the point to the light.
 
 struct TreeNode {
     low: vec3f,
@@ -37,7 +38,8 @@ struct Placed {
 
 const LEAF_BITS: u32 = 8u;
 
-// What there is in place of light space's axes: rows that take differences to the face's coordinates (x, y, w).
+// What there is in place of light space's axes: rows that take differences to the face's
+// coordinates (x, y, w).
 struct Rows {
     x: vec3f,
     y: vec3f,
@@ -50,7 +52,8 @@ override WORDS: u32 = 2u;
 override FOURS: u32 = 1u;
 // How far from the middle of the face there are samples.
 override REACH: f32 = 1.0;
-// Half planes are known by the turn of their normal and their distance from the middle, in so many steps.
+// Half planes are known by the turn of their normal and their distance from the middle, in so many
+// steps.
 override TURNS: f32 = 128.0;
 override DISTANCES: f32 = 128.0;
 
@@ -116,8 +119,8 @@ fn on_rows(rows: Rows, d: vec3f) -> vec3f {
     return vec3f(dot(rows.x, d), dot(rows.y, d), dot(rows.w, d));
 }
 
-// The samples that are hidden. Words that there are none for are full. Two vectors and no array: indices that are not constant cost
-// loops, whose rounds some drivers count and cut off.
+// The samples that are hidden. Words that there are none for are full. Two vectors and no array:
+// indices that are not constant cost loops, whose rounds some drivers count and cut off.
 var<private> first: vec4u;
 var<private> second: vec4u;
 
@@ -147,7 +150,8 @@ fn strike(rows: Rows, p: vec3f, triangle: u32, tolerance: f32) {
     let u = cross(a, b) * side;
     let v = cross(b, c) * side;
     let w = cross(c, a) * side;
-    // A sample is hidden where the ray to it passes on the same side of all edges, and meets the plane before the light.
+    // A sample is hidden where the ray to it passes on the same side of all edges, and meets the
+    // plane before the light.
     let least = select(abs(volume), 0.0, light.parallel != 0u);
     let before = u + v + w - vec3f(0.0, 0.0, least);
     let halves = array<Half, 4>(half_of(u), half_of(v), half_of(w), half_of(before));
@@ -163,7 +167,8 @@ struct Half {
     other: u32,
 }
 
-// The half plane x X + y Y + z ≥ 0. Triangles beside each other ask for both sides of one line, so that no sample falls between them.
+// The half plane x X + y Y + z ≥ 0. Triangles beside each other ask for both sides of one line, so
+// that no sample falls between them.
 fn half_of(line: vec3f) -> Half {
     var l = line;
     if FACE == LINE {

@@ -76,8 +76,8 @@ impl Mask {
         Ok(())
     }
 
-    /// Only if the light looks otherwise than before. Whether a picture is the same is asked of its pixels, since hosts may
-    /// change them where they are.
+    /// Only if the light looks otherwise than before. Whether a picture is the same is asked of its
+    /// pixels, since hosts may change them where they are.
     fn make_half_planes(&mut self, view: &View<'_>, form: &Form) {
         let picture = match view.light.shape {
             LightShape::Rect { texture: Some(index), .. } => view.textures.get(index),

@@ -1,5 +1,5 @@
-//! A light mask: every point keeps one bit for each sample of the light, and triangles strike them out, so that what casters
-//! share counts once.
+//! A light mask: every point keeps one bit for each sample of the light, and triangles strike them
+//! out, so that what casters share counts once.
 //!
 //! Sources: Schwarz and Stamminger 2007; Sintorn et al. 2008.
 

@@ -29,8 +29,8 @@ impl Boundable for Boxed {
     }
 }
 
-/// Appends the tree over `boxes` to `nodes`, depth first, and the order of things to `order`. Numbers of things in leaves count from
-/// `order`'s length before.
+/// Appends the tree over `boxes` to `nodes`, depth first, and the order of things to `order`.
+/// Numbers of things in leaves count from `order`'s length before.
 pub(super) fn append(boxes: &[Boxed], nodes: &mut Vec<TreeNode>, order: &mut Vec<u32>) {
     if boxes.is_empty() {
         return;

@@ -1,6 +1,7 @@
 //! Light-space perspective shadow maps: a perspective across the light and along the view.
 //!
-//! Sources: Wimmer, Scherzer and Purgathofer, "Light Space Perspective Shadow Maps", 2004; SG "Perspective Shadow Maps".
+//! Sources: Wimmer, Scherzer and Purgathofer, "Light Space Perspective Shadow Maps", 2004; SG
+//! "Perspective Shadow Maps".
 
 use crate::depth_maps::{Fitting, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS, Softness};
 use crate::settings::Configure;

@@ -7,7 +7,8 @@ fn moments_of(depth: f32) -> vec4f {
     return vec4f(z, square, square * z, square * square);
 }
 
-// For even steps: combinations that each fill 0 to 1, chosen so that together they lose least (Peters and Klein 2015, section 4).
+// For even steps: combinations that each fill 0 to 1, chosen so that together they lose least
+// (Peters and Klein 2015, section 4).
 const ROOT: f32 = 1.7320508;
 
 fn packed(m: vec4f) -> vec4f {

@@ -1,5 +1,6 @@
 // needs: map_visibility, moments_lookup, moments
-// Moment shadow maps with four moments (Peters and Klein 2015): the smallest share of shadow that fits the moments.
+// Moment shadow maps with four moments (Peters and Klein 2015): the smallest share of shadow that
+// fits the moments.
 
 // How much of another distribution is mixed in, against rounding.
 override MOMENT_BIAS: f32 = 1e-6;
@@ -10,8 +11,9 @@ const FLATTEST: vec4f = vec4f(0.0, 0.375, 0.0, 0.375);
 // Own plane: see `README.md`.
 const PLANE_BIAS: f32 = 150.0;
 
-// The smallest share of a distribution with these moments that can lie nearer than `z` (Hamburger's problem). Among all distributions the
-// one that attains it has three depths: z and the roots of the polynomial that is orthogonal to it.
+// The smallest share of a distribution with these moments that can lie nearer than `z` (Hamburger's
+// problem). Among all distributions the one that attains it has three depths: z and the roots of
+// the polynomial that is orthogonal to it.
 fn smallest_shadow(b: vec4f, z: f32) -> f32 {
     // Hankel matrix (1 b₁ b₂; b₁ b₂ b₃; b₂ b₃ b₄) = L D Lᵀ, solved for (1, z, z²).
     let l32d22 = b.z - b.x * b.y;

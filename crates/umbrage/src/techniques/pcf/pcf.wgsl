@@ -1,5 +1,6 @@
 // needs: map_visibility
-// Percentage-closer filtering: the share of compares that pass around the receiver (ZA 3.2, FE 2.3.1).
+// Percentage-closer filtering: the share of compares that pass around the receiver (ZA 3.2, FE
+// 2.3.1).
 
 // 2, 3, 5, 7: a square of that many bilinear compares a side; 0: a disc.
 override KERNEL: u32 = 3u;
@@ -7,14 +8,16 @@ override KERNEL: u32 = 3u;
 override TAPS: u32 = 16u;
 override RADIUS: f32 = 2.5;
 
-// Four compares around the corner between texels (corner − 1, corner), in the order of textureGather.
+// Four compares around the corner between texels (corner − 1, corner), in the order of
+// textureGather.
 fn gather(point: MapPoint, slope: vec2f, corner: vec2f, bias: f32) -> vec4f {
     let reference = reference_of(depth_along(point, slope, corner - point.texel) + bias);
     return textureGatherCompare(map_depth, map_compare, corner / map.size, point.layer, reference);
 }
 
-// A box of KERNEL × KERNEL bilinear compares. Together they are the (KERNEL + 1)² texels around, each weighted by its
-// overlap with the box: inner ones whole, those at the border by the fraction. Gathers fetch them four at a time.
+// A box of KERNEL × KERNEL bilinear compares. Together they are the (KERNEL + 1)² texels around,
+// each weighted by its overlap with the box: inner ones whole, those at the border by the fraction.
+// Gathers fetch them four at a time.
 fn square(point: MapPoint, slope: vec2f, bias: f32) -> f32 {
     let base = floor(point.texel - 0.5);
     let f = point.texel - 0.5 - base;
@@ -32,7 +35,8 @@ fn square(point: MapPoint, slope: vec2f, bias: f32) -> f32 {
     return sum / f32(KERNEL * KERNEL);
 }
 
-// Points spread evenly over a disc along a golden spiral (Vogel), turned for every pixel so that steps become grain.
+// Points spread evenly over a disc along a golden spiral (Vogel), turned for every pixel so that
+// steps become grain.
 fn disc(point: MapPoint, slope: vec2f, at: vec2f, radius: f32, bias: f32) -> f32 {
     let turn = gradient_noise(at) * 6.2831853;
     var sum = 0.0;
@@ -47,8 +51,9 @@ fn disc(point: MapPoint, slope: vec2f, at: vec2f, radius: f32, bias: f32) -> f32
 
 fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let slope = map_slope(point);
-    // A bilinear compare shares one reference depth between texels up to a texel away. For gathers half of that would do on
-    // a plane, but wide filters meet curved surfaces: 7×7 then loses 0.05 % of the interior of `primitives`.
+    // A bilinear compare shares one reference depth between texels up to a texel away. For gathers
+    // half of that would do on a plane, but wide filters meet curved surfaces: 7×7 then loses 0.05
+    // % of the interior of `primitives`.
     let radius = filter_radius(point, RADIUS);
     let width = select(0.5 * f32(KERNEL), radius, KERNEL == 0u);
     let bias = map_bias(point, slope, 1.0 + CREASE) + map_bend(point, max(width - 1.0, 0.0));

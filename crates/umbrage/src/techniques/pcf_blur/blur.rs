@@ -188,8 +188,8 @@ impl Blur {
         let background = f64::from(camera.background_depth());
         // What a pixel spans: at a distance of 1, or on a parallel picture everywhere.
         let pixel = 2.0 / (f64::from(width) * clip.x_axis.x.abs()).min(f64::from(height) * clip.y_axis.y.abs());
-        // In perspective depth is a constant plus something over the distance, and changes by the latter where the distance does by
-        // its own length.
+        // In perspective depth is a constant plus something over the distance, and changes by the
+        // latter where the distance does by its own length.
         let pixel_depth = if clip.z_axis.w == 0.0 {
             [0.0, pixel * clip.z_axis.z.abs()]
         } else {

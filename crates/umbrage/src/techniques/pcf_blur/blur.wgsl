@@ -1,5 +1,6 @@
 // needs: receivers, quads
-// A Gaussian along rows or columns (ZA 3.3), a quad at a time: `fn values_at(quad: vec2i) -> vec4f` gives what is blurred.
+// A Gaussian along rows or columns (ZA 3.3), a quad at a time: `fn values_at(quad: vec2i) -> vec4f`
+// gives what is blurred.
 
 // Two standard deviations, pixels.
 override RADIUS: f32 = 4.0;
@@ -11,7 +12,8 @@ override ALONG_ROWS: bool = true;
 // How far a neighbour may be off the plane of the pixel, as a share of how far away it is.
 const OFF_PLANE: f32 = 0.5;
 
-// Pixels, ordered so that the axis goes from the first to the second and from the third to the fourth.
+// Pixels, ordered so that the axis goes from the first to the second and from the third to the
+// fourth.
 struct Quad {
     values: vec4f,
     // Distance from that of the background.

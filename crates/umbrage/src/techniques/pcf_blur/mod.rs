@@ -1,7 +1,8 @@
-//! Percentage-closer filtering, blurred on the screen: soft edges for two cheap passes, and a halo unless the blur keeps to the
-//! surfaces.
+//! Percentage-closer filtering, blurred on the screen: soft edges for two cheap passes, and a halo
+//! unless the blur keeps to the surfaces.
 //!
-//! Sources: ZA 3.3; Shastry, "Soft-Edged Shadows", 2005; weights by surface after Tomasi and Manduchi 1998.
+//! Sources: ZA 3.3; Shastry, "Soft-Edged Shadows", 2005; weights by surface after Tomasi and
+//! Manduchi 1998.
 
 mod blur;
 mod technique;
@@ -33,8 +34,8 @@ const ROWS_SHADER: Shader = shader("pcf-blur rows", include_str!("rows.wgsl"));
 const COLUMNS_SHADER: Shader = shader("pcf-blur columns", include_str!("columns.wgsl"));
 const RESULT_SHADER: Shader = shader("pcf-blur result", include_str!("result.wgsl"));
 
-/// What the source draws where a surface faces away from the light, for the blur to know: next to no light in place of none. As in
-/// `head.wgsl`.
+/// What the source draws where a surface faces away from the light, for the blur to know: next to
+/// no light in place of none. As in `head.wgsl`.
 const OWN_SHADOW: f64 = 6.103515625e-5;
 
 choices! {

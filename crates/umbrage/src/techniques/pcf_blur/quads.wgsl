@@ -1,6 +1,6 @@
 // needs: head
-// Quads: two by two pixels. Visibility is a whole number, 0 for what faces away from the light, else 1 to 255 for none to all of it;
-// four of them are a word.
+// Quads: two by two pixels. Visibility is a whole number, 0 for what faces away from the light,
+// else 1 to 255 for none to all of it; four of them are a word.
 
 @group(1) @binding(0) var<uniform> blur: Blur;
 @group(1) @binding(1) var<storage, read> list: TileList;

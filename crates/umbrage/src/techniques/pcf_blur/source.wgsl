@@ -1,5 +1,6 @@
 // needs: map_visibility
-// What is blurred: percentage-closer filtering over a square of 3 × 3 bilinear compares (ZA 3.2), or a single compare.
+// What is blurred: percentage-closer filtering over a square of 3 × 3 bilinear compares (ZA 3.2),
+// or a single compare.
 
 override IS_HARD: bool = false;
 
@@ -9,13 +10,15 @@ fn nearest_texel(point: MapPoint) -> f32 {
     return select(0.0, 1.0, is_lit(point, vec2f(texel) + 0.5 - point.texel, stored));
 }
 
-// Four compares around the corner between texels (corner − 1, corner), in the order of textureGather.
+// Four compares around the corner between texels (corner − 1, corner), in the order of
+// textureGather.
 fn compare_four(point: MapPoint, slope: vec2f, corner: vec2f, bias: f32) -> vec4f {
     let reference = reference_of(depth_along(point, slope, corner - point.texel) + bias);
     return textureGatherCompare(map_depth, map_compare, corner / map.size, point.layer, reference);
 }
 
-// Nine bilinear compares are the 4 × 4 texels around: the outer ones count by the fraction that the square covers.
+// Nine bilinear compares are the 4 × 4 texels around: the outer ones count by the fraction that the
+// square covers.
 fn nine_compares(point: MapPoint) -> f32 {
     let slope = map_slope(point);
     let bias = map_bias(point, slope, 1.0 + CREASE);

@@ -1,4 +1,5 @@
-//! Finds the tiles of a visibility target around which values differ, and lists them for indirect dispatches and draws.
+//! Finds the tiles of a visibility target around which values differ, and lists them for indirect
+//! dispatches and draws.
 
 use super::TILES_SHADER;
 use crate::fullscreen::{self, FLOATS, bind, layout};

@@ -59,7 +59,8 @@ fn find_blocks(@builtin(global_invocation_id) id: vec3u) {
     blocks[id.y * u32(count.x) + id.x] = value;
 }
 
-// Columns are blurred after rows, and read what is above and below a tile: whatever has one that is blurred there.
+// Columns are blurred after rows, and read what is above and below a tile: whatever has one that is
+// blurred there.
 @compute @workgroup_size(8, 8)
 fn find_tiles(@builtin(global_invocation_id) id: vec3u) {
     let count = block_count();

@@ -1,4 +1,5 @@
-//! Percentage-closer filtering with jittered taps: grain in place of bands, and most taps only in the penumbra.
+//! Percentage-closer filtering with jittered taps: grain in place of bands, and most taps only in
+//! the penumbra.
 //!
 //! Sources: Uralsky, "Efficient Soft-Edged Shadows Using Pixel Shader Branching", 2005; ZA 3.4.
 

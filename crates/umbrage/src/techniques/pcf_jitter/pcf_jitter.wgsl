@@ -1,5 +1,6 @@
 // needs: map_visibility, map_taps
-// Percentage-closer filtering over a jittered disc (ZA 3.4): a few taps on the rim first, the rest only where these differ.
+// Percentage-closer filtering over a jittered disc (ZA 3.4): a few taps on the rim first, the rest
+// only where these differ.
 
 override TAPS: u32 = 64u;
 override TESTS: u32 = 8u;

@@ -1,4 +1,5 @@
-//! Percentage-closer soft shadows: looks for blockers on a grid, filters on a grid as wide as the penumbra.
+//! Percentage-closer soft shadows: looks for blockers on a grid, filters on a grid as wide as the
+//! penumbra.
 //!
 //! Sources: Fernando, "Percentage-Closer Soft Shadows", 2005; ZA 3.5.
 

@@ -1,6 +1,6 @@
 // needs: map_visibility, soft_taps
-// Percentage-closer soft shadows on grids (ZA 3.5), without their traps: a grid of taps looks for blockers, their distance gives the
-// width of the penumbra, and a grid of that width is compared.
+// Percentage-closer soft shadows on grids (ZA 3.5), without their traps: a grid of taps looks for
+// blockers, their distance gives the width of the penumbra, and a grid of that width is compared.
 
 fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let kernel = light_kernel(point, pixel);

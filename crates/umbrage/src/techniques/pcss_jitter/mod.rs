@@ -1,4 +1,5 @@
-//! Percentage-closer soft shadows with jittered taps for search and filter: penumbras as wide as the light makes them.
+//! Percentage-closer soft shadows with jittered taps for search and filter: penumbras as wide as
+//! the light makes them.
 //!
 //! Sources: ZA 4.4.1 and 4.4.3, and 3.5 (Fernando, "Percentage-Closer Soft Shadows", 2005).
 

@@ -1,10 +1,11 @@
 // needs: map_quick, soft_taps
-// The combined method (ZA 4.4.3): a jittered search for blockers, then jittered taps as wide as the penumbra, the first few on the
-// rim and the rest only where these differ.
+// The combined method (ZA 4.4.3): a jittered search for blockers, then jittered taps as wide as the
+// penumbra, the first few on the rim and the rest only where these differ.
 
 override TESTS: u32 = 8u;
 
-// What the bounds of depth decide: nothing in the way, or so close that the penumbra is lost in a texel.
+// What the bounds of depth decide: nothing in the way, or so close that the penumbra is lost in a
+// texel.
 fn quick_share(point: MapPoint, pixel: Pixel) -> f32 {
     let kernel = light_kernel(point, pixel);
     let half = kernel_box(kernel, farthest_reach(point, kernel));

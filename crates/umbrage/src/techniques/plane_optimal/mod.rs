@@ -1,6 +1,7 @@
 //! The plane-optimal map: no perspective is left between the screen and the map on one plane.
 //!
-//! Sources: Chong, "Real-Time Perspective Optimal Shadow Maps", 2003; SG "Thesis of Hamilton Yu-Ik Chong".
+//! Sources: Chong, "Real-Time Perspective Optimal Shadow Maps", 2003; SG "Thesis of Hamilton Yu-Ik
+//! Chong".
 
 use crate::depth_maps::{Fitting, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS, Softness};
 use crate::settings::Configure;

@@ -1,6 +1,8 @@
-//! Perspective shadow maps: the map is taken in post-perspective space, where near things are large.
+//! Perspective shadow maps: the map is taken in post-perspective space, where near things are
+//! large.
 //!
-//! Sources: Stamminger and Drettakis 2002; Kozlov, "Perspective Shadow Maps: Care and Feeding", 2004; SG "Perspective Shadow Maps".
+//! Sources: Stamminger and Drettakis 2002; Kozlov, "Perspective Shadow Maps: Care and Feeding",
+//! 2004; SG "Perspective Shadow Maps".
 
 use crate::depth_maps::{Fitting, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS, Softness};
 use crate::settings::Configure;

@@ -1,6 +1,7 @@
 //! Hard shadows from a depth map seen from the light.
 //!
-//! Sources: Williams 1978; ZA 2.3; SG "Shadow Mapping", "Second Depth Shadow Maps" (midpoint), "Extensions" (focus).
+//! Sources: Williams 1978; ZA 2.3; SG "Shadow Mapping", "Second Depth Shadow Maps" (midpoint),
+//! "Extensions" (focus).
 
 use crate::depth_maps::{Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage};
 use crate::settings::Configure;

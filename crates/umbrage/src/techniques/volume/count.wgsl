@@ -1,5 +1,6 @@
 // needs: extrude
-// Counts surfaces of shadow volumes in floats: each pixel adds up how many volumes a ray enters and leaves.
+// Counts surfaces of shadow volumes in floats: each pixel adds up how many volumes a ray enters and
+// leaves.
 
 // From infinity, behind what is seen, instead of from the eye.
 override FROM_INFINITY: bool = false;

@@ -1,4 +1,5 @@
-//! Where shadows are counted: a stencil buffer or a float texture, and the depth that volumes are compared with.
+//! Where shadows are counted: a stencil buffer or a float texture, and the depth that volumes are
+//! compared with.
 
 use super::depth::{DepthBounds, DepthCopy, Projection};
 use super::options::CounterKind;
@@ -40,8 +41,8 @@ impl Counter {
         Self { targets: None, copy: None, key, bounds: None }
     }
 
-    /// Makes targets where they do not fit any more. `range` asks for bounds: points beyond it count nothing. `own`: volumes are not
-    /// drawn with the camera's projection but with this one.
+    /// Makes targets where they do not fit any more. `range` asks for bounds: points beyond it
+    /// count nothing. `own`: volumes are not drawn with the camera's projection but with this one.
     pub fn prepare(
         &mut self,
         gpu: &Gpu,
@@ -75,7 +76,8 @@ impl Counter {
         }
     }
 
-    /// Begins counting: from `start`, with a copy of the depth where that is needed, or from what was counted before.
+    /// Begins counting: from `start`, with a copy of the depth where that is needed, or from what
+    /// was counted before.
     pub fn begin<'p>(
         &self,
         passes: &'p mut Passes<'_>,
@@ -141,7 +143,8 @@ impl Targets {
         let copied = lent.is_none().then(|| view("depth for volumes", key.depth_format));
         let counts = (key.kind == CounterKind::Float).then(|| view("counts", key.count_format));
         let of = |there: bool, format: wgpu::TextureFormat| {
-            // A stencil aspect has no copy size of its own with the depth: 8 bytes a pixel are what drivers take.
+            // A stencil aspect has no copy size of its own with the depth: 8 bytes a pixel are what
+            // drivers take.
             if there { pixels * u64::from(format.block_copy_size(None).unwrap_or(8)) } else { 0 }
         };
         let bytes = of(copied.is_some(), key.depth_format) + of(counts.is_some(), key.count_format);

@@ -48,7 +48,8 @@ impl DepthBounds {
     }
 }
 
-/// A projection for volumes where the camera's own would clip them: at its far plane, on adapters that can't clamp depth.
+/// A projection for volumes where the camera's own would clip them: at its far plane, on adapters
+/// that can't clamp depth.
 pub(super) struct Projection {
     pub clip_from_world: DMat4,
     /// Depth is this over the distance along the view.

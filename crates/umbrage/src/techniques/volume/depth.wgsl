@@ -8,7 +8,8 @@ struct DepthBounds {
     range_squared: f32,
     // What makes all volumes fail the depth test.
     nearest: f32,
-    // Over 0: depth becomes this over the distance, as a reversed projection without a far plane has it.
+    // Over 0: depth becomes this over the distance, as a reversed projection without a far plane
+    // has it.
     own_near: f32,
     pad_a: f32,
     pad_b: f32,
@@ -21,8 +22,8 @@ fn copy_depth(@builtin(position) at: vec4f) -> @builtin(frag_depth) f32 {
     return textureLoad(receiver_depth, vec2i(at.xy), 0);
 }
 
-// In place of the depth-bounds test (GG 9.6.3), and tighter: what the light can't reach becomes the nearest there is,
-// so that nothing is counted there.
+// In place of the depth-bounds test (GG 9.6.3), and tighter: what the light can't reach becomes the
+// nearest there is, so that nothing is counted there.
 @fragment
 fn changed_depth(@builtin(position) at: vec4f) -> @builtin(frag_depth) f32 {
     let depth = textureLoad(receiver_depth, vec2i(at.xy), 0);

@@ -1,7 +1,8 @@
-//! Stencil shadow volumes: exact hard shadows by counting how many shadows each visible point is in.
+//! Stencil shadow volumes: exact hard shadows by counting how many shadows each visible point is
+//! in.
 //!
-//! Sources: Crow 1977; Heidmann 1991; PX 3.2–3.4, 5; SG "Practical and Robust Stenciled Shadow Volumes"; ZA 2.4; GG 9.
-//! Multiplicity of edges: Bergeron 1986; Aldridge and Woods 2004; Kim 2008.
+//! Sources: Crow 1977; Heidmann 1991; PX 3.2–3.4, 5; SG "Practical and Robust Stenciled Shadow
+//! Volumes"; ZA 2.4; GG 9. Multiplicity of edges: Bergeron 1986; Aldridge and Woods 2004; Kim 2008.
 
 mod counter;
 mod depth;
@@ -104,8 +105,9 @@ impl Configure for Volume {
     }
 }
 
-/// The single-pass algorithm (PX 3.4): leaves 0 in `visibility` where a point is in the shadow of any of the views' lights,
-/// else 1. It is wrong for more than one light, and kept to be compared with. The views differ in nothing but the light.
+/// The single-pass algorithm (PX 3.4): leaves 0 in `visibility` where a point is in the shadow of
+/// any of the views' lights, else 1. It is wrong for more than one light, and kept to be compared
+/// with. The views differ in nothing but the light.
 ///
 /// # Errors
 /// [`Error::Unsupported`] for any other technique than `volume`, and as [`Technique::prepare`].

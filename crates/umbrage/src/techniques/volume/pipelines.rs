@@ -1,4 +1,5 @@
-//! Pipelines that count volumes and turn counts into visibility, one for each combination that came up.
+//! Pipelines that count volumes and turn counts into visibility, one for each combination that came
+//! up.
 
 use super::COUNT_SHADER;
 use super::RESOLVE_SHADER;
@@ -195,8 +196,8 @@ fn depth_stencil(key: Key) -> wgpu::DepthStencilState {
     }
 }
 
-/// A light cap coincides with the surface that casts it. A host's vertex shader may round positions otherwise, which moves depth by a
-/// part of its slope over a pixel.
+/// A light cap coincides with the surface that casts it. A host's vertex shader may round positions
+/// otherwise, which moves depth by a part of its slope over a pixel.
 fn cap_bias(reversed: bool) -> wgpu::DepthBiasState {
     wgpu::DepthBiasState { constant: 0, slope_scale: if reversed { -0.25 } else { 0.25 }, clamp: 0.0 }
 }

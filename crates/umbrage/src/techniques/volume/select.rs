@@ -39,7 +39,8 @@ pub(super) struct Selection {
     /// Light caps, and dark caps, that are drawn and that are out of view.
     pub caps: [u32; 2],
     pub caps_culled: [u32; 2],
-    /// Casters whose triangles were searched for the eye's count, and those that were too close to tell.
+    /// Casters whose triangles were searched for the eye's count, and those that were too close to
+    /// tell.
     pub eye_counted: u32,
     pub eye_undecided: u32,
     fates: Vec<(u32, Fate)>,
@@ -47,7 +48,8 @@ pub(super) struct Selection {
 }
 
 impl Selection {
-    /// Chooses; returns the light's centre to extrude from. Without `clamps`, volumes are clipped at the near plane.
+    /// Chooses; returns the light's centre to extrude from. Without `clamps`, volumes are clipped
+    /// at the near plane.
     pub fn choose(&mut self, gpu: &Gpu, view: &View<'_>, options: &Options, clamps: bool) -> Result<DVec4, Error> {
         self.clear();
         let casters = view.casters;
@@ -165,7 +167,8 @@ impl Selection {
                 is_open_to_eye || (s.may_shadow_eye(&bounds) && !self.count_from_eye(s, placed, mesh, rule))
             }
         };
-        // What is counted from infinity needs a dark cap where it ends, while parallel light needs none infinitely far away.
+        // What is counted from infinity needs a dark cap where it ends, while parallel light needs
+        // none infinitely far away.
         let ends = s.options.reach != Reach::Infinite && !(z_fail && s.light.w == 0.0);
         let end = if ends { s.end_of(&placed.bounds) } else { DVec4::ZERO };
         let (light_cap, dark_cap) = if z_fail { self.caps(s, placed, &bounds, end) } else { (false, false) };

@@ -18,7 +18,8 @@ pub(super) struct Situation<'a> {
     pub frustum: Frustum,
     /// A box around the eye and what is in front of the near plane.
     pub around_eye: Bounds,
-    /// What surely holds every point that shadows the viewport, where depth is clipped at the near plane.
+    /// What surely holds every point that shadows the viewport, where depth is clipped at the near
+    /// plane.
     pyramid: Option<Convex>,
     pub is_parallel_view: bool,
     /// Shadows end where the light does.
@@ -53,12 +54,14 @@ impl<'a> Situation<'a> {
         }
     }
 
-    /// True where depth is clipped, so that counts would have to start at the near plane, pixel by pixel.
+    /// True where depth is clipped, so that counts would have to start at the near plane, pixel by
+    /// pixel.
     pub fn is_clipped(&self) -> bool {
         self.pyramid.is_some()
     }
 
-    /// False where the box surely shadows neither the eye nor, where that matters, a point of the near plane.
+    /// False where the box surely shadows neither the eye nor, where that matters, a point of the
+    /// near plane.
     pub fn may_shadow_eye(&self, bounds: &Bounds) -> bool {
         match &self.pyramid {
             Some(pyramid) => pyramid.may_touch(bounds),
@@ -66,7 +69,8 @@ impl<'a> Situation<'a> {
         }
     }
 
-    /// The side of the box around all that is seen where the caster's shadow may end, see [`shadow_hull::shadow_end`].
+    /// The side of the box around all that is seen where the caster's shadow may end, see
+    /// [`shadow_hull::shadow_end`].
     pub fn end_of(&self, bounds: &Bounds) -> DVec4 {
         shadow_hull::shadow_end(&self.seen, bounds, self.light)
     }
@@ -81,8 +85,9 @@ impl<'a> Situation<'a> {
         Bounds::of(dark).grown(self.rounding)
     }
 
-    /// How far away from the light corners of the shadow have to lie so that no triangle between them cuts into the light's range
-    /// (the gaps of PX figure 3.7); 0, infinitely far, where the caster is so near that this is very far.
+    /// How far away from the light corners of the shadow have to lie so that no triangle between
+    /// them cuts into the light's range (the gaps of PX figure 3.7); 0, infinitely far, where the
+    /// caster is so near that this is very far.
     pub fn finite_reach(&self, range: f64, placed: &Placed, mesh: &MeshEdges) -> f64 {
         let light = self.light.truncate();
         let near = light.clamp(placed.bounds.min, placed.bounds.max).distance(light);
@@ -92,7 +97,8 @@ impl<'a> Situation<'a> {
             mesh.adjacency.longest_edge * largest_stretch(&placed.world_from_mesh.matrix3)
         };
         let half_edge = 0.5 * longest_edge;
-        // A triangle whose edges are seen under an angle fits into a cone that is 2 / √3 times as wide.
+        // A triangle whose edges are seen under an angle fits into a cone that is 2 / √3 times as
+        // wide.
         let half_angle = (half_edge / near).asin() * 2.0 / 3.0_f64.sqrt();
         if half_angle < 1.3 { range / half_angle.cos() * 1.001 } else { 0.0 }
     }

@@ -50,7 +50,8 @@ impl Volume {
         }
     }
 
-    /// Stencil where it surely does not wrap and there is one to use; elsewhere floats, which need no copy of the depth.
+    /// Stencil where it surely does not wrap and there is one to use; elsewhere floats, which need
+    /// no copy of the depth.
     fn choose_counter(&self, gpu: &Gpu, receivers: &Receivers, layers: u32) -> Result<CounterKind, Error> {
         let has_stencil = gpu.has(wgpu::Features::DEPTH32FLOAT_STENCIL8);
         match self.options.counter {
@@ -66,7 +67,8 @@ impl Volume {
         }
     }
 
-    /// The sides that each round of drawing leaves out: one round for both, or fronts and then backs.
+    /// The sides that each round of drawing leaves out: one round for both, or fronts and then
+    /// backs.
     fn rounds(&self) -> &'static [Option<wgpu::Face>] {
         if self.options.two_pass && self.kind == CounterKind::Stencil {
             &[Some(wgpu::Face::Back), Some(wgpu::Face::Front)]
@@ -82,7 +84,8 @@ impl Volume {
         Key { target: self.counter.key, weighted: self.kind == CounterKind::Float, test, part, cull }
     }
 
-    /// Counts one light's shadows from `start`, or on top of what was counted; returns the number of draws.
+    /// Counts one light's shadows from `start`, or on top of what was counted; returns the number
+    /// of draws.
     fn count_volumes(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges, start: Option<i32>) -> u32 {
         let silhouettes = &self.silhouettes;
         silhouettes.record(passes, edges);
@@ -141,7 +144,8 @@ impl Volume {
         let range = view.light.range.filter(|_| bounded);
         self.counter.prepare(gpu, view, self.kind, range, own.as_ref(), &self.pipelines.read_counts);
         self.pipelines.prepare_resolve(gpu, self.counter.key, self.options.count == Count::Xor);
-        // All that the way of counting may need, so that none is made when the eye comes into a shadow.
+        // All that the way of counting may need, so that none is made when the eye comes into a
+        // shadow.
         for &cull in self.rounds() {
             for &part in self.options.count.parts() {
                 self.pipelines.prepare(gpu, self.key(part, cull));

@@ -24,7 +24,8 @@ fn heated(@builtin(position) at: vec4f) -> @location(0) vec4f {
     return vec4f(select(heat(log2(1.0 + number) / log2(1.0 + base.scale)), vec3f(0.0), number == 0.0), 1.0);
 }
 
-// Fronts orange, backs blue, added to the scene: the more the brighter, but never so bright that nothing is told apart.
+// Fronts orange, backs blue, added to the scene: the more the brighter, but never so bright that
+// nothing is told apart.
 @fragment
 fn volumes(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let surfaces = textureLoad(numbers, vec2i(at.xy), 0).xy;
@@ -32,8 +33,8 @@ fn volumes(@builtin(position) at: vec4f) -> @location(0) vec4f {
     return vec4f(grey(base.eye, at) + both.x * vec3f(0.8, 0.34, 0.05) + both.y * vec3f(0.06, 0.3, 0.8), 1.0);
 }
 
-// Lit surfaces grey, shadows by how many there are: a colour for each number up to seven, then brighter to white;
-// a number below zero, which none should be, magenta.
+// Lit surfaces grey, shadows by how many there are: a colour for each number up to seven, then
+// brighter to white; a number below zero, which none should be, magenta.
 @fragment
 fn numbered(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let number = i32(round(textureLoad(numbers, vec2i(at.xy), 0).x));

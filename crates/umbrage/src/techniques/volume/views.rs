@@ -1,4 +1,5 @@
-//! Pictures of what happens inside: volumes, counts, overdraw, silhouettes, and which casters were kept.
+//! Pictures of what happens inside: volumes, counts, overdraw, silhouettes, and which casters were
+//! kept.
 
 use super::VIEW_BASE_SHADER;
 use super::VIEWS_SHADER;

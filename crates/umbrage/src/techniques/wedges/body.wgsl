@@ -3,7 +3,8 @@
 // Bodies are larger than wedges by this share, so that rounding cuts nothing off.
 const SLACK: f32 = 1e-3;
 
-// Of all n = cos φ axis + sin φ other with n · d ≥ radius for the directions from the light to `ends`, the first and the last φ.
+// Of all n = cos φ axis + sin φ other with n · d ≥ radius for the directions from the light to
+// `ends`, the first and the last φ.
 fn span(axis: vec3f, other: vec3f, ends: array<vec3f, 2>) -> vec2f {
     var found = vec2f(-10.0, 10.0);
     let first = light.corners[0];
@@ -32,7 +33,8 @@ fn ray(end: vec3f, side: vec3f, sum: vec3f) -> vec3f {
     return normalize(select(-r, r, dot(r, sum) >= 0.0));
 }
 
-// Directions of a body's edges: of the low end in the front and in the back face, then of the high end.
+// Directions of a body's edges: of the low end in the front and in the back face, then of the high
+// end.
 fn rays_of(normals: array<vec3f, 4>) -> array<vec3f, 4> {
     let sum = normals[0] + normals[1] + normals[2] + normals[3];
     return array<vec3f, 4>(
@@ -74,7 +76,8 @@ fn corners_of(starts: array<vec3f, 2>, ways: array<vec3f, 4>, end: vec4f) -> arr
     return corners;
 }
 
-// The side of a box where all rays, two from each start, leave it soonest, as n · p = w. Zero where they do not leave it through one side.
+// The side of a box where all rays, two from each start, leave it soonest, as n · p = w. Zero where
+// they do not leave it through one side.
 fn end_of(starts: array<vec3f, 2>, ways: array<vec3f, 4>, low: vec3f, high: vec3f) -> vec4f {
     var best = 1e30;
     var end = vec4f(0.0);

@@ -1,6 +1,7 @@
 //! The scale that keeps a light within its time (SG "Load-balancing").
 
-/// Frames between two changes: times arrive a few frames late, and a change shows in them after that.
+/// Frames between two changes: times arrive a few frames late, and a change shows in them after
+/// that.
 const PATIENCE: u32 = 8;
 
 /// A finer scale has to fit with so much to spare, or scales would change to and fro.

@@ -12,11 +12,12 @@
 // Wedges, and bundles, that an instance draws.
 const GROUP: u32 = 64u;
 
-// Wedges that a thread looks for bundles among. They come in the order of their edges, neighbours in space mostly being neighbours in it.
+// Wedges that a thread looks for bundles among. They come in the order of their edges, neighbours
+// in space mostly being neighbours in it.
 const WINDOW: u32 = 16u;
 
-// Bundles are made where their bodies cover less than this share of what the wedges cover one by one. A fragment costs more than the share of an
-// edge, and one of a bundle has four shares.
+// Bundles are made where their bodies cover less than this share of what the wedges cover one by
+// one. A fragment costs more than the share of an edge, and one of a bundle has four shares.
 const WORTH: f32 = 0.6;
 
 fn draw_alone(wedge: u32) {

@@ -1,5 +1,6 @@
 // needs: instances, edges, area_light, record
-// Makes the caps of casters that are counted from infinity: their triangles, and where the triangles' shadows end.
+// Makes the caps of casters that are counted from infinity: their triangles, and where the
+// triangles' shadows end.
 
 struct CapChunk {
     caster: u32,
@@ -52,7 +53,8 @@ fn cap_of(caster: u32, triangle: u32, faces_light: bool, weights: vec2f) -> Cap 
     let away = normalize(select(-normal, normal, turned));
     cap.plane = vec4f(away, dot(away, corners[0]));
     cap.weights = weights;
-    // Corners are sums of what is relative to the middle of the scene and of the way from there to the eye.
+    // Corners are sums of what is relative to the middle of the scene and of the way from there to
+    // the eye.
     let sizes = abs(corners[0]) + abs(corners[1]) + abs(corners[2]) + abs(light.eye_from_origin);
     cap.off = 2.0 * light.rounding * (sizes.x + sizes.y + sizes.z);
     return cap;

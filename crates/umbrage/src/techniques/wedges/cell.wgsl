@@ -39,7 +39,8 @@ fn across_cell(light: AreaLight, a: vec3f, b: vec3f, beyond: bool) -> Chord {
     return Chord(foot + along * start, foot + along * end, on_disc.hit && start < end);
 }
 
-// `center`: where silhouettes are seen from; `inside`: it is on the left of the chord, whatever was rounded.
+// `center`: where silhouettes are seen from; `inside`: it is on the left of the chord, whatever was
+// rounded.
 fn cell_term(light: AreaLight, c: Chord, center: vec2f, inside: bool) -> f32 {
     // A point on the piece, however far from the caster's own direction the light is seen.
     let in_sides = clamp(center, light.cell.xy + 1e-3, light.cell.zw - 1e-3);

@@ -1,10 +1,10 @@
-// What a directed edge adds to the covered share of a light apart from the hard shadow: see `coverage` in the core crate. All in light
-// space.
+// What a directed edge adds to the covered share of a light apart from the hard shadow: see
+// `coverage` in the core crate. All in light space.
 
 const PI: f32 = 3.14159265358979;
 
-// Where an edge runs across a disc: its line's distance from the centre, which is negative where that is on its right, and
-// where its ends are along it, from the foot of the perpendicular.
+// Where an edge runs across a disc: its line's distance from the centre, which is negative where
+// that is on its right, and where its ends are along it, from the foot of the perpendicular.
 struct Across {
     distance: f32,
     start: f32,
@@ -12,7 +12,8 @@ struct Across {
     hit: bool,
 }
 
-// The face turns to whoever looks: `a` and `b` are the edge relative to the point, `way` leads to the centre.
+// The face turns to whoever looks: `a` and `b` are the edge relative to the point, `way` leads to
+// the centre.
 fn across_sphere(a: vec3f, b: vec3f, way: vec3f) -> Across {
     let square = dot(way, way);
     let per_square = 1.0 / square;
@@ -106,7 +107,8 @@ fn on_square(c: Chord, inside: bool) -> f32 {
     return (c.start.x * c.end.y - c.start.y * c.end.x) / 8.0 - turn_on_square(c, inside);
 }
 
-// What flat lights make of differences of places: homogeneous coordinates (x, y, w) of the face, w = 1 in its plane.
+// What flat lights make of differences of places: homogeneous coordinates (x, y, w) of the face,
+// w = 1 in its plane.
 fn on_face(d: vec3f, p: vec3f) -> vec3f {
     let w = -d.z / p.z;
     return vec3f(d.xy + p.xy * w, w);

@@ -1,5 +1,6 @@
 // needs: receivers, area_light, coverage, cell, record
-// Adds up how much of the light is covered: hard shadows by the sides of volumes, then what every edge's wedge adds to them.
+// Adds up how much of the light is covered: hard shadows by the sides of volumes, then what every
+// edge's wedge adds to them.
 
 @group(1) @binding(0) var<uniform> light: AreaLight;
 @group(1) @binding(1) var<uniform> eye: Eye;
@@ -18,8 +19,9 @@ fn depth_at(pixel: vec2f) -> f32 {
     return textureLoad(receiver_depth, vec2i(pixel), 0);
 }
 
-// Whether a point, relative to the eye, is on the shadow's side of the plane through light and edge. Hard shadow and wedge both go by this, so that they agree
-// to the last bit; what rounding can't tell is where the eye is.
+// Whether a point, relative to the eye, is on the shadow's side of the plane through light and
+// edge. Hard shadow and wedge both go by this, so that they agree to the last bit; what rounding
+// can't tell is where the eye is.
 fn is_inside(p: vec3f, plane: vec4f, eye_inside: f32) -> bool {
     return is_inside_within(p, plane, eye_inside, 0.0);
 }
@@ -38,8 +40,9 @@ struct Side {
     @location(2) @interpolate(flat) from_infinity: f32,
 }
 
-// Corner 0…3 of a quad: end, start, start's shadow, end's shadow, counter-clockwise seen from outside of the shadow. It has no depth: whether it is in front of what is seen the
-// fragment shader finds.
+// Corner 0…3 of a quad: end, start, start's shadow, end's shadow, counter-clockwise seen from
+// outside of the shadow. It has no depth: whether it is in front of what is seen the fragment
+// shader finds.
 @vertex
 fn side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32) -> Side {
     let number = group * GROUP + vertex / 4u;
@@ -61,7 +64,8 @@ fn side(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32)
     return out;
 }
 
-// On which side the eye is goes by the rasteriser, which decides what a quad that is seen edge-on covers.
+// On which side the eye is goes by the rasteriser, which decides what a quad that is seen edge-on
+// covers.
 fn shadows_of_side(in: Side, from_outside: bool) -> vec2f {
     let pixel = full_pixel(light, in.position.xy);
     let depth = depth_at(pixel);
@@ -88,7 +92,8 @@ struct CapCorner {
     @location(3) @interpolate(flat) off: f32,
 }
 
-// Corner by corner; caps in the light, then in the dark. Without a depth, as sides, so that the near plane cuts nothing off.
+// Corner by corner; caps in the light, then in the dark. Without a depth, as sides, so that the
+// near plane cuts nothing off.
 @vertex
 fn cap(@builtin(vertex_index) vertex: u32, @builtin(instance_index) end: u32) -> CapCorner {
     let number = vertex / 3u;
@@ -110,8 +115,9 @@ fn cap(@builtin(vertex_index) vertex: u32, @builtin(instance_index) end: u32) ->
     return out;
 }
 
-// Lines of sight leave the shadow through its dark end, going the light's way, and enter where it is no farther than the surface. The surface itself, where it is what is seen, is in front of
-// its shadow on one side and behind it on the other.
+// Lines of sight leave the shadow through its dark end, going the light's way, and enter where it
+// is no farther than the surface. The surface itself, where it is what is seen, is in front of its
+// shadow on one side and behind it on the other.
 @fragment
 fn add_cap(in: CapCorner, @builtin(front_facing) from_outside: bool) -> @location(0) vec2f {
     let pixel = full_pixel(light, in.position.xy);
@@ -146,7 +152,8 @@ struct Body {
 // Depth is clamped at the far plane, not clipped.
 override CLAMPS: bool = true;
 
-// Of the faces of wedges those are drawn that face away, which the eye sees each once wherever it is.
+// Of the faces of wedges those are drawn that face away, which the eye sees each once wherever it
+// is.
 @vertex
 fn body(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32) -> Body {
     let number = group * GROUP + vertex / 6u;

@@ -1,6 +1,6 @@
 // needs: resolve, term_picture
-// Of the picture on the square between −1 and 1 the share where x a + y b + c < 0: the half plane is covered by a caster with one long
-// edge, and lies on the left of it.
+// Of the picture on the square between −1 and 1 the share where x a + y b + c < 0: the half plane
+// is covered by a caster with one long edge, and lies on the left of it.
 fn beyond_on_square(line: vec3f) -> f32 {
     let normal = line.xy / max(length(line.xy), 1e-30);
     let foot = normal * (-line.z / max(length(line.xy), 1e-30));

@@ -29,7 +29,8 @@ fn no_wedge() -> Wedge {
     return wedge;
 }
 
-// Covers the screen: corners of the far face are those of the screen, turned to be seen from within, all others fall together.
+// Covers the screen: corners of the far face are those of the screen, turned to be seen from
+// within, all others fall together.
 fn everywhere(wedge: ptr<function, Wedge>) {
     for (var i = 0u; i < 4u; i++) {
         (*wedge).planes[i] = vec4f(0.0, 0.0, 0.0, -1.0);
@@ -102,8 +103,9 @@ fn body(a: vec3f, b: vec3f, wedge: ptr<function, Wedge>) -> bool {
     return true;
 }
 
-// The plane through an edge and the place where its silhouette is seen from, relative to the eye, where differences are small near the eye and the light may be far away. Zero for an edge in line with the light, or
-// without length, which has no side.
+// The plane through an edge and the place where its silhouette is seen from, relative to the eye,
+// where differences are small near the eye and the light may be far away. Zero for an edge in line
+// with the light, or without length, which has no side.
 fn plane_of(wedge: ptr<function, Wedge>) -> vec4f {
     let start = (*wedge).eye_start;
     let seen_from = light.center + from_light(light, (*wedge).anchor.place);

@@ -1,6 +1,8 @@
-//! Soft shadow volumes: a penumbra wedge for every silhouette edge corrects the hard shadow, all of a light's in one draw.
+//! Soft shadow volumes: a penumbra wedge for every silhouette edge corrects the hard shadow, all of
+//! a light's in one draw.
 //!
-//! Sources: Assarsson and Akenine-Möller 2003; SG "A Soft Shadow Volume Algorithm"; PX 4, 6 and 7.2.
+//! Sources: Assarsson and Akenine-Möller 2003; SG "A Soft Shadow Volume Algorithm"; PX 4, 6 and
+//! 7.2.
 
 mod budget;
 mod draws;

@@ -16,8 +16,8 @@ use std::ops::Range;
 /// Workgroups in a row, the most that every adapter allows.
 const ROW: u32 = 65_535;
 
-/// Workgroups that put wedges into bundles at most: few edges are silhouettes, so most of one a window of edges would find
-/// nothing to do.
+/// Workgroups that put wedges into bundles at most: few edges are silhouettes, so most of one a
+/// window of edges would find nothing to do.
 const MOST_GROUPS: u32 = 32;
 
 /// Indices of a body.

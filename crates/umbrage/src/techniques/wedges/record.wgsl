@@ -13,17 +13,20 @@ struct Wedge {
     from_infinity: f32,
     end: vec3f,
     pad_c: f32,
-    // The plane n · p = w through edge and light, n towards the side of the shadow, relative to the eye.
+    // The plane n · p = w through edge and light, n towards the side of the shadow, relative to the
+    // eye.
     plane: vec4f,
-    // How often it counts: among the sides of bodies that face the light and among those that face away. Sheets and closed
-    // bodies count on both.
+    // How often it counts: among the sides of bodies that face the light and among those that face
+    // away. Sheets and closed bodies count on both.
     weights: vec2f,
     pad_d: vec2f,
-    // Where the hard shadow may end since nothing that is seen lies beyond, n · p = w relative to the eye; n = 0: nowhere.
+    // Where the hard shadow may end since nothing that is seen lies beyond, n · p = w relative to
+    // the eye; n = 0: nowhere.
     dark: vec4f,
     // Inside is n · p ≥ w, in light space.
     planes: array<vec4f, 4>,
-    // Corners in clip space: the near ones, then for each of them those of the front and the back face.
+    // Corners in clip space: the near ones, then for each of them those of the front and the back
+    // face.
     corners: array<vec4f, 6>,
     anchor: Anchor,
 }
@@ -40,7 +43,8 @@ struct Bundle {
 
 // A triangle of a caster that is counted from infinity.
 struct Cap {
-    // Corners relative to the eye, counter-clockwise seen from the light, and their shadows, homogeneous.
+    // Corners relative to the eye, counter-clockwise seen from the light, and their shadows,
+    // homogeneous.
     lit: array<vec4f, 3>,
     dark: array<vec4f, 3>,
     // Its plane n · p = w relative to the eye, n away from the light.

@@ -5,8 +5,8 @@
 @group(1) @binding(1) var<uniform> eye: Eye;
 // A layer for each piece of the light.
 @group(1) @binding(2) var covered: texture_2d_array<f32>;
-// Of each piece its share of the light, and twice how many of its shadows the eye is in, see `Wedge::weights`. Not in storage, which some drivers read
-// pixel by pixel.
+// Of each piece its share of the light, and twice how many of its shadows the eye is in, see
+// `Wedge::weights`. Not in storage, which some drivers read pixel by pixel.
 @group(1) @binding(3) var<uniform> pieces: array<vec4f, 9>;
 
 // Of the light.
@@ -22,7 +22,8 @@ fn beyond_on_disc(distance: f32) -> f32 {
     return (acos(d) - d * sqrt(1.0 - d * d)) / PI;
 }
 
-// The share of the light that is below the surface's own plane, whose normal is given in light space.
+// The share of the light that is below the surface's own plane, whose normal is given in light
+// space.
 fn below_horizon(p: vec3f, normal: vec3f) -> f32 {
     let way = way_to_light(light, p);
     let height = dot(normal, way);
@@ -65,8 +66,9 @@ fn covered_around(first: vec2f, last: vec2i) -> vec4f {
     return vec4f(covered_at(a), covered_at(vec2i(b.x, a.y)), covered_at(vec2i(a.x, b.y)), covered_at(b));
 }
 
-// Between places of the smaller buffer those count that lie in the surface's own plane; where none does, the one that is nearest to it.
-// Where all have the same share, as mostly, that is left at once.
+// Between places of the smaller buffer those count that lie in the surface's own plane; where none
+// does, the one that is nearest to it. Where all have the same share, as mostly, that is left at
+// once.
 fn upsampled(pixel: vec2f, p: vec3f, normal: vec3f) -> f32 {
     let scale = f32(light.scale);
     let last = vec2i(textureDimensions(covered)) - 1;

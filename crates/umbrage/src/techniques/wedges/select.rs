@@ -15,7 +15,8 @@ use umbrage_core::silhouette::Rule;
 const MOST_OPEN: f64 = 0.05;
 const MOST_FLAT: f64 = 0.1;
 
-/// Sides end behind what is seen by this share of its size: more than the rasteriser's own rounding of corners amounts to.
+/// Sides end behind what is seen by this share of its size: more than the rasteriser's own rounding
+/// of corners amounts to.
 const BEHIND: f64 = 2e-3;
 
 /// Triangles that are looked at together, see `caps.wgsl`.
@@ -25,10 +26,11 @@ pub(super) const CHUNK: u32 = 64;
 #[derive(Default)]
 pub(super) struct Selection {
     pub throws: Vec<Throw>,
-    /// Of each caster the shadows that the eye is in: of its sides that face the light, and of those that face away, see `Wedge::weights`.
-    /// `None`: it is counted from infinity.
+    /// Of each caster the shadows that the eye is in: of its sides that face the light, and of
+    /// those that face away, see `Wedge::weights`. `None`: it is counted from infinity.
     pub eye_counts: Vec<Option<[u32; 2]>>,
-    /// Of casters that are counted from infinity, chunks of triangles: the number of the caster and the first triangle.
+    /// Of casters that are counted from infinity, chunks of triangles: the number of the caster and
+    /// the first triangle.
     pub caps: Vec<[u32; 2]>,
     found: Vec<u32>,
 }
@@ -57,7 +59,8 @@ impl Selection {
             return Ok(());
         }
         let edges = view.casters.edges(gpu)?;
-        // Segments from the eye to what is seen stay in this box. One plane a caster, so that neighbours share corners.
+        // Segments from the eye to what is seen stay in this box. One plane a caster, so that
+        // neighbours share corners.
         let seen = view.seen().with(view.camera.eye);
         let seen = seen.grown(BEHIND * seen.size().length());
         let rounding = view.rounding();
@@ -124,8 +127,9 @@ fn weights(throw: &Throw, [facing, away]: [u32; 2]) -> [u32; 2] {
     }
 }
 
-/// A closed body casts the shadow of its far side: both sides would cover the light twice. Of one with holes, or whose inside is seen, both
-/// count apart. Every other mesh is a sheet, which covers the light once wherever it is.
+/// A closed body casts the shadow of its far side: both sides would cover the light twice. Of one
+/// with holes, or whose inside is seen, both count apart. Every other mesh is a sheet, which covers
+/// the light once wherever it is.
 fn throw(place: u32, light: DVec4, mesh: &Adjacency, end: DVec4, shows_inside: bool) -> Throw {
     let has_holes = mesh.open_share <= MOST_OPEN && mesh.flatness <= MOST_FLAT;
     Throw {

@@ -36,7 +36,8 @@ pub(super) const BUNDLE: Shader = shader("bundle wedges", include_str!("bundle.w
 pub(super) const CAPS: Shader =
     shader("make caps", include_str!("caps.wgsl")).with_constants(&[("Cap", records::CAP_RECORD as f64)]);
 
-/// Adds up what is covered; shares come from a formula, a table for discs, or a table for one picture.
+/// Adds up what is covered; shares come from a formula, a table for discs, or a table for one
+/// picture.
 pub(super) const DRAWS: [Shader; 3] = [
     shader("wedges", "// needs: draw, term_analytic").with_constants(&[GROUP]),
     shader("wedges by table", "// needs: draw, term_table"),
@@ -56,5 +57,6 @@ pub(super) const DEPTH: Shader = shader("depth of wedges", include_str!("depth.w
 /// Colours of every pixel's numbers; an entry for each view.
 pub(super) const VIEWS: Shader = shader("views of wedges", include_str!("views.wgsl"));
 
-/// Bodies of wedges as numbers. What an edge crosses goes by the formula whatever is asked for, since it is the same.
+/// Bodies of wedges as numbers. What an edge crosses goes by the formula whatever is asked for,
+/// since it is the same.
 pub(super) const VIEW_BODIES: Shader = shader("bodies of wedges", include_str!("view_bodies.wgsl"));

@@ -1,4 +1,5 @@
-//! Shares of a light that shaders look up: those of a disc, where tables are asked for, and those of pictures.
+//! Shares of a light that shaders look up: those of a disc, where tables are asked for, and those
+//! of pictures.
 
 use super::shaders;
 use crate::area_light::{Face, Form};
@@ -16,8 +17,9 @@ use wgpu::util::DeviceExt;
 /// Values along each axis of a disc's table (PX 4.2).
 const DISC_SIDE: usize = 32;
 
-/// Values along each axis of a picture's table: 0.7 MB. Over lines across checkers, bars and a spot 16 are off by up to 0.019, 24 by
-/// up to 0.011 and 32, three times as large and as slow to make, by up to 0.007; a test in the core crate prints them.
+/// Values along each axis of a picture's table: 0.7 MB. Over lines across checkers, bars and a spot
+/// 16 are off by up to 0.019, 24 by up to 0.011 and 32, three times as large and as slow to make,
+/// by up to 0.007; a test in the core crate prints them.
 const PICTURE_SIDE: usize = 24;
 
 /// The same of a piece, which has fewer details and a part of the light: 0.13 MB.
@@ -88,8 +90,9 @@ impl Tables {
         Self { for_discs, nothing, disc: None, picture: None }
     }
 
-    /// Makes the table that a light needs, a picture's once for as long as it shows the same, with one for each of `split` times `split` pieces. True
-    /// where it shows one; a black one, as none, is an even light.
+    /// Makes the table that a light needs, a picture's once for as long as it shows the same, with
+    /// one for each of `split` times `split` pieces. True where it shows one; a black one, as none,
+    /// is an even light.
     pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, split: usize) -> bool {
         if let LightShape::Rect { texture, .. } = view.light.shape {
             let shown = texture.and_then(|index| view.textures.get(index));
@@ -106,7 +109,8 @@ impl Tables {
     }
 
     fn prepare_picture(&mut self, gpu: &Gpu, texture: &Texture, split: usize) -> bool {
-        // Whether it is the same is asked of its pixels, since hosts may change them where they are.
+        // Whether it is the same is asked of its pixels, since hosts may change them where they
+        // are.
         if self.picture.as_ref().is_none_or(|p| p.of != *texture) {
             let light = Luminance::of(texture);
             let of = |part: &Part, side| light.as_ref().and_then(|light| table_of(light, part, side));
@@ -145,13 +149,15 @@ impl Tables {
         made.unwrap_or(&self.nothing)
     }
 
-    /// Of a split light the group of its piece of this number; that of a dark one of a picture is never seen.
+    /// Of a split light the group of its piece of this number; that of a dark one of a picture is
+    /// never seen.
     pub fn group_of_piece(&self, term: Term, number: usize) -> &wgpu::BindGroup {
         let piece = self.picture.as_ref().and_then(|p| p.pieces.get(number)).filter(|_| term == Term::Picture);
         piece.and_then(|piece| piece.table.as_ref()).unwrap_or(self.group(term))
     }
 
-    /// The share of a picture's light that a piece of it gives; `None` where there is no such piece.
+    /// The share of a picture's light that a piece of it gives; `None` where there is no such
+    /// piece.
     pub fn weight_of_piece(&self, number: usize) -> Option<f64> {
         self.picture.as_ref()?.pieces.get(number).map(|piece| piece.weight)
     }

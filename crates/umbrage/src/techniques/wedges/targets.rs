@@ -180,7 +180,8 @@ impl Target {
             ],
         );
         let pixels = u64::from(size.0) * u64::from(size.1);
-        // A stencil aspect has no copy size of its own with the depth: 8 bytes a pixel are what drivers take.
+        // A stencil aspect has no copy size of its own with the depth: 8 bytes a pixel are what
+        // drivers take.
         let bytes_of = |format: wgpu::TextureFormat| pixels * u64::from(format.block_copy_size(None).unwrap_or(8));
         let depth = |format| target_texture(gpu, "depth of wedges", size, 1, format).create_view(&Default::default());
         let shares = u64::from(key.pieces) * bytes_of(pipelines.format);

@@ -38,7 +38,8 @@ pub(super) struct Wedges {
     views: Option<Views>,
 }
 
-/// Of the six corners of a body the triangles of its far face, front, back and both ends, counter-clockwise from outside.
+/// Of the six corners of a body the triangles of its far face, front, back and both ends,
+/// counter-clockwise from outside.
 const FACES: [u16; 24] = [5, 4, 2, 5, 2, 3, 1, 0, 2, 1, 2, 4, 0, 1, 5, 0, 5, 3, 0, 3, 2, 1, 4, 5];
 
 impl Wedges {

@@ -1,6 +1,6 @@
 // needs: coverage
-// Shares of a square that shows a picture by a look-up over both ends of a chord (SG "Precomputed 4D textures"), see `TexturedTable` in
-// the core crate.
+// Shares of a square that shows a picture by a look-up over both ends of a chord (SG "Precomputed
+// 4D textures"), see `TexturedTable` in the core crate.
 
 // A of a chord: x and y are its start, z counts the places of its end, row by row.
 @group(2) @binding(0) var triangles: texture_3d<f32>;

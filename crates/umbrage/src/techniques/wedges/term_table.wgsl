@@ -1,5 +1,6 @@
 // needs: coverage
-// Shares of discs by the look-ups of PX 4.2, see `SphereTable` in the core crate; those of squares have no table and are computed.
+// Shares of discs by the look-ups of PX 4.2, see `SphereTable` in the core crate; those of squares
+// have no table and are computed.
 
 @group(2) @binding(0) var shares: texture_3d<f32>;
 @group(2) @binding(1) var filtered: sampler;

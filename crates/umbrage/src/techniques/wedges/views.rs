@@ -1,4 +1,5 @@
-//! Pictures of what happens inside: bodies, penumbras, overdraw, and what wedges add to the hard shadow.
+//! Pictures of what happens inside: bodies, penumbras, overdraw, and what wedges add to the hard
+//! shadow.
 
 use super::pipelines::{Key, Resolve};
 use super::records::GROUP;
@@ -15,7 +16,8 @@ pub(super) const NAMES: &[&str] = &["wireframe", "wedges", "penumbra", "overdraw
 
 const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// Of the six corners of a body the ends of its edges, and nothing thrice, so that arguments of the draw of bodies hold for lines, too.
+/// Of the six corners of a body the ends of its edges, and nothing thrice, so that arguments of the
+/// draw of bodies hold for lines, too.
 const LINES: [u16; 24] = [0, 1, 0, 2, 0, 3, 1, 4, 1, 5, 2, 3, 4, 5, 2, 4, 3, 5, 0, 0, 0, 0, 0, 0];
 
 /// Vertex shaders of bodies and where the arguments of their draws are.
@@ -130,7 +132,8 @@ impl Views {
         pass.draw(0..3, 0..1);
     }
 
-    /// Lines are seen through everything, bodies where they are in front of what is seen, and all else is drawn as shadows are.
+    /// Lines are seen through everything, bodies where they are in front of what is seen, and all
+    /// else is drawn as shadows are.
     fn depth_compare(&self, reversed: bool) -> Option<wgpu::CompareFunction> {
         let clamps = self.gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL);
         match self.name {

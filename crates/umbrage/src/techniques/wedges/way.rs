@@ -1,4 +1,5 @@
-//! How the wedges of a light's pieces are drawn: all at once, see `one_draw.rs`, or as the texts do, see `old_ways`.
+//! How the wedges of a light's pieces are drawn: all at once, see `one_draw.rs`, or as the texts
+//! do, see `old_ways`.
 
 use super::piece::{Piece, Recording};
 use super::pipelines::Pipelines;
@@ -6,7 +7,8 @@ use super::targets::Target;
 use crate::silhouettes::Extrude;
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
 
-/// A way of drawing. Pieces are known by their number, which is that of their layer in the target, too.
+/// A way of drawing. Pieces are known by their number, which is that of their layer in the target,
+/// too.
 pub(super) trait Way: Send {
     /// Where silhouettes are found.
     fn extrude(&self) -> Extrude {
@@ -18,7 +20,8 @@ pub(super) trait Way: Send {
         false
     }
 
-    /// The format of the depth buffer that wedges are drawn against, where it can't be the receivers' own at any scale.
+    /// The format of the depth buffer that wedges are drawn against, where it can't be the
+    /// receivers' own at any scale.
     fn depth_format(&self) -> Option<wgpu::TextureFormat> {
         None
     }
@@ -36,7 +39,8 @@ pub(super) trait Way: Send {
         pipelines: &mut Pipelines,
     ) -> Result<(), Error>;
 
-    /// Adds up what casters cover of a piece, whose wedges are built, in its layer of the target; gives the number of draws.
+    /// Adds up what casters cover of a piece, whose wedges are built, in its layer of the target;
+    /// gives the number of draws.
     fn add_up(&self, passes: &mut Passes<'_>, view: &View<'_>, number: usize, piece: &Piece, r: &Recording<'_>) -> u32;
 
     /// The shadows that the eye is in and that [`Way::add_up`] leaves to the last pass.

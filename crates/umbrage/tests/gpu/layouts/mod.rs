@@ -138,7 +138,8 @@ fn odd_places_give_shares_in_every_layout() {
 fn walls_around_the_light_are_lit_across_all_seams() {
     let gpu = gpu();
     let mut wrong = Vec::new();
-    // Of the floor, two walls and the ceiling, each without its edges: there a filter of constant width darkens corners.
+    // Of the floor, two walls and the ceiling, each without its edges: there a filter of constant
+    // width darkens corners.
     let looks = [
         (DVec3::new(0.2, 7.0, -0.1), DVec3::new(0.0, 0.0, -0.1)),
         (DVec3::new(0.4, 4.0, 0.2), DVec3::new(0.5, 4.1, -6.0)),
@@ -170,8 +171,8 @@ fn walls_around_the_light_are_lit_across_all_seams() {
     assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// Parts of each edge, and the mean absolute error of a hard shadow map on paraboloids ×10⁻⁴: a quarter for half the
-/// length, until it is that of the texels.
+/// Parts of each edge, and the mean absolute error of a hard shadow map on paraboloids ×10⁻⁴: a
+/// quarter for half the length, until it is that of the texels.
 const SPLIT: [(u32, f64); 6] = [(1, 460.0), (2, 145.0), (4, 40.0), (8, 10.5), (16, 5.3), (32, 4.2)];
 
 #[test]

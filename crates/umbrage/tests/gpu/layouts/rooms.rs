@@ -52,8 +52,8 @@ pub fn empty_room(size: DVec3, parts: u32, light: LightShape) -> Scene {
     scene
 }
 
-/// A table right under the light, and boxes around it: all edges of the table are more than 90 degrees long as the light
-/// sees them.
+/// A table right under the light, and boxes around it: all edges of the table are more than 90
+/// degrees long as the light sees them.
 pub fn room(parts: u32, light: LightShape) -> Scene {
     let mut scene = empty_room(DVec3::new(6.0, 3.0, 6.0), parts, light);
     let (eye, target) = (DVec3::new(2.4, 2.3, 2.6), DVec3::new(-0.9, 0.3, -1.1));

@@ -1,4 +1,5 @@
-//! Eyes at exact places: in shadows, in casters, on the border of a shadow, and near planes that cut.
+//! Eyes at exact places: in shadows, in casters, on the border of a shadow, and near planes that
+//! cut.
 
 use super::{Bench, EXACT, assert_none, floor, put};
 use crate::common::gpu;
@@ -27,7 +28,8 @@ fn an_eye_exactly_on_the_border_of_a_shadow_sees_right() {
     let mut wrong = Vec::new();
     let mut bench = Bench::new(&gpu, scene(), (160, 120), &EXACT);
     let down = bench.scene.lights[0].clone();
-    // Sides of the cube's shadow are the planes x = ±0.5 and z = ±0.5, below a lamp above the middle x = 3 − y and the like.
+    // Sides of the cube's shadow are the planes x = ±0.5 and z = ±0.5, below a lamp above the
+    // middle x = 3 − y and the like.
     let lamp = point(0.0, 3.0, 0.0);
     let borders = [
         (&down, DVec3::new(0.5, 1.0, 0.1)),

@@ -10,7 +10,8 @@ use umbrage_renderer::{LightPass, Renderer};
 
 const LIGHT: DVec3 = DVec3::new(0.5, 6.0, 0.5);
 
-/// A card over a floor, cut away wholly by its mask: the eye looks through it and its shadow is still whole.
+/// A card over a floor, cut away wholly by its mask: the eye looks through it and its shadow is
+/// still whole.
 fn masked() -> Scene {
     let mut scene = floor(LightShape::Point { position: LIGHT });
     let base_color = Vec4::new(0.8, 0.8, 0.8, 0.2);

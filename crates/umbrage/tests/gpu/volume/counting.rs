@@ -1,4 +1,5 @@
-//! Ways to count that are right in some places only, and wrong where they should be; and that these tests see it.
+//! Ways to count that are right in some places only, and wrong where they should be; and that these
+//! tests see it.
 
 use super::{Bench, floor, put};
 use crate::common::gpu;

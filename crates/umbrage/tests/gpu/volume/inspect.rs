@@ -79,7 +79,8 @@ fn views_of_nothing_are_drawn_too() {
 
 #[test]
 fn counts_are_shown_as_they_are() {
-    // Two plates above each other: their common shadow has another colour than that of one, and that another than the light.
+    // Two plates above each other: their common shadow has another colour than that of one, and
+    // that another than the light.
     let gpu = gpu();
     let mut scene = floor(LightShape::Directional { direction: DVec3::NEG_Y, angle_deg: 0.0 });
     for (x, y) in [(0.0, 1.0), (0.5, 1.5)] {

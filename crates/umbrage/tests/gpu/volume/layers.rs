@@ -8,8 +8,9 @@ use umbrage::core::{Camera, Image, LightShape, Mesh, Scene, primitive};
 const PLATES: usize = 300;
 const SIZE: (u32, u32) = (640, 40);
 
-/// Plates above each other, each 1 cm shorter than the one above, beside the view; their shadows fall at 45 degrees on a floor
-/// of as many strips, so that the strip of x = k … k + 1 cm is in k shadows.
+/// Plates above each other, each 1 cm shorter than the one above, beside the view; their shadows
+/// fall at 45 degrees on a floor of as many strips, so that the strip of x = k … k + 1 cm is in k
+/// shadows.
 fn stairs(plate: &Mesh, is_one_mesh: bool) -> Scene {
     let direction = DVec3::new(1.0, -1.0, 0.0).normalize();
     let mut scene = floor(LightShape::Directional { direction, angle_deg: 0.0 });

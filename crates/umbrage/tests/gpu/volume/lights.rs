@@ -36,12 +36,14 @@ fn cameras() -> [Camera; 3] {
     ]
 }
 
-/// What all lights around a place agree on is compared; the truth is that of a light on the technique's side.
+/// What all lights around a place agree on is compared; the truth is that of a light on the
+/// technique's side.
 fn agreed(bench: &Bench, camera: &Camera, position: DVec3) -> [Target; 2] {
     let moved = |by: DVec3| bench.target(camera, &point(position + by * 1e-4));
     let own = moved(OFF);
     let mut mask = own.mask.clone();
-    // To all sides, and on its own side where borders of shadows are seen under somewhat other angles.
+    // To all sides, and on its own side where borders of shadows are seen under somewhat other
+    // angles.
     for (low, high, i) in
         [(-1.0, 1.0, 0..8), (0.85, 1.15, 0..8)].into_iter().flat_map(|(l, h, r)| r.map(move |i| (l, h, i)))
     {
@@ -73,8 +75,8 @@ fn a_light_on_a_corner_an_edge_or_a_face_throws_the_shadow_from_beside_it() {
         for (set, seen) in bench.visibility(camera, &point(position)) {
             let what = format!("light at {position} from {}, {set}", camera.eye);
             wrong.extend(agreed.complaint(&what, &seen));
-            // From two millionths of a metre beside an edge, where its shadow begins is seen under the right angle to within
-            // some per cent.
+            // From two millionths of a metre beside an edge, where its shadow begins is seen under
+            // the right angle to within some per cent.
             let (correct, _) = own.right_pct(&seen);
             if correct < 98.5 {
                 wrong.push(format!("{what}: {correct:.3} % correct"));

@@ -40,7 +40,8 @@ fn with_copies(mut mesh: Mesh, random: &mut Random) -> Mesh {
     mesh
 }
 
-/// Triangles without area between the corners of others, and edges that one neighbour splits and the other does not.
+/// Triangles without area between the corners of others, and edges that one neighbour splits and
+/// the other does not.
 fn with_slivers(mut mesh: Mesh, random: &mut Random) -> Mesh {
     let all: Vec<[u32; 3]> = mesh.triangles().collect();
     for [a, b, c] in all {
@@ -62,7 +63,8 @@ fn with_holes(mut mesh: Mesh, random: &mut Random) -> Mesh {
     mesh
 }
 
-/// Thousands of vertices at one place, from which triangles go out to all sides, and as many with no extent at all.
+/// Thousands of vertices at one place, from which triangles go out to all sides, and as many with
+/// no extent at all.
 fn burst() -> Mesh {
     let n = 1000;
     let mut mesh = Mesh { positions: vec![Vec3::ZERO; n], ..Mesh::default() };

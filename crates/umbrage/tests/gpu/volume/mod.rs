@@ -31,7 +31,8 @@ use umbrage_renderer::Renderer;
 /// The ways to count that are right everywhere.
 pub const COUNTS: [&str; 3] = ["count=z-fail", "count=auto", "count=z-pass-eye"];
 
-/// All ways to hard shadows that are exact to the pixel: those, and wedges of a light that has no size, counted from the eye and from infinity.
+/// All ways to hard shadows that are exact to the pixel: those, and wedges of a light that has no
+/// size, counted from the eye and from infinity.
 pub const EXACT: [&str; 5] = ["count=z-fail", "count=auto", "count=z-pass-eye", "wedges", "wedges:unseen=on"];
 
 /// A scene that several settings of the technique draw, to be seen from anywhere under any light.
@@ -83,7 +84,8 @@ impl Target {
         (pct(wrong.len(), self.pixels().0), pct(inside, all_inside))
     }
 
-    /// What is wrong with a picture: more than one pixel in a thousand, or one that is far from every shadow edge.
+    /// What is wrong with a picture: more than one pixel in a thousand, or one that is far from
+    /// every shadow edge.
     pub fn complaint(&self, what: &str, produced: &Image<f32>) -> Option<String> {
         let (correct, inside) = self.right_pct(produced);
         if correct >= 99.9 && inside == 100.0 {
@@ -116,7 +118,8 @@ impl Bench {
         drawn.collect()
     }
 
-    /// The visibility that every renderer gives, 1 where no surface is: whatever is there means nothing.
+    /// The visibility that every renderer gives, 1 where no surface is: whatever is there means
+    /// nothing.
     pub fn visibility_of_surfaces(&mut self, camera: &Camera, light: &Light) -> Vec<(String, Image<f32>)> {
         self.draw(camera, light, |renderer| {
             let (seen, depth) = (renderer.visibility(0).unwrap(), renderer.depth(camera).unwrap());

@@ -75,7 +75,8 @@ fn frames_like_earlier_ones_create_nothing() {
 
 #[test]
 fn an_eye_that_comes_into_a_shadow_or_a_caster_creates_nothing() {
-    // What is needed for any view is made at the start: making pipelines takes long enough to be seen.
+    // What is needed for any view is made at the start: making pipelines takes long enough to be
+    // seen.
     let mut wrong = Vec::new();
     for count in COUNTS {
         let gpu = gpu();

@@ -37,8 +37,8 @@ impl Random {
         }
     }
 
-    /// The light that the scene has, the same moved, and lights of every kind without extent at any place in the scene and
-    /// around it.
+    /// The light that the scene has, the same moved, and lights of every kind without extent at any
+    /// place in the scene and around it.
     pub fn light(&mut self, scene: &Scene, kind: usize) -> Light {
         let bounds = scene.bounds();
         let around = Bounds { min: bounds.min - bounds.size() * 0.2, max: bounds.max + bounds.size() * 0.5 };
@@ -64,7 +64,8 @@ impl Random {
         Light { shape, ..own }
     }
 
-    /// Cameras anywhere, in the shadow of a caster, near one, in its box, towards the light and away from it.
+    /// Cameras anywhere, in the shadow of a caster, near one, in its box, towards the light and
+    /// away from it.
     pub fn camera(&mut self, scene: &Scene, light: &Light, kind: usize) -> Camera {
         let bounds = scene.bounds();
         let caster = self.caster(scene);

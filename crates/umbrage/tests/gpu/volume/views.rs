@@ -16,7 +16,8 @@ pub fn small_scene(build: fn(f32) -> Scene) -> Scene {
     scene
 }
 
-/// A view that shows something, of kind `kind` where that works out: few of those into a corner or from below the ground do.
+/// A view that shows something, of kind `kind` where that works out: few of those into a corner or
+/// from below the ground do.
 pub fn view(random: &mut Random, bench: &Bench, kind: usize) -> (Camera, Light, Target) {
     for attempt in 0..100 {
         let kind = kind + attempt / 10;

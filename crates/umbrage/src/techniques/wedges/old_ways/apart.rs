@@ -1,5 +1,5 @@
-//! What is drawn into a buffer of its own and then added: convex loops one by one (`batch = per-loop`, PX 4.4), or casters, of
-//! which the largest share counts (`combine = max`).
+//! What is drawn into a buffer of its own and then added: convex loops one by one (`batch =
+//! per-loop`, PX 4.4), or casters, of which the largest share counts (`combine = max`).
 
 use super::super::draws::{self, Draw, shares_format};
 use super::super::piece::{Piece, Recording, prepare_draws};
@@ -35,7 +35,8 @@ pub(super) struct Apart {
 /// What is drawn apart of a piece.
 struct OfPiece {
     groups: Vec<Group>,
-    /// The shadows that the eye is in: of casters that are drawn apart a slot each, of all others the first.
+    /// The shadows that the eye is in: of casters that are drawn apart a slot each, of all others
+    /// the first.
     eye_counts: Vec<[u32; 2]>,
     buffer: wgpu::Buffer,
 }

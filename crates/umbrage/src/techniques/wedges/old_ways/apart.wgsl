@@ -16,8 +16,8 @@ fn screen(@builtin(vertex_index) vertex: u32, @builtin(instance_index) slot: u32
     return Apart(vec4f(corner, 0.5, 1.0), slot);
 }
 
-// A convex loop: where its wedges reach, the point is in the hard shadow if none of them has it outside (PX 4.4); elsewhere the sides of the
-// volume say so.
+// A convex loop: where its wedges reach, the point is in the hard shadow if none of them has it
+// outside (PX 4.4); elsewhere the sides of the volume say so.
 @fragment
 fn add_loop(in: Apart) -> @location(0) vec2f {
     let v = textureLoad(sums, vec2i(in.position.xy), 0);

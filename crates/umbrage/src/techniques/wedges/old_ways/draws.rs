@@ -28,8 +28,8 @@ pub(in super::super) const SHADERS: [Shader; 5] = [DRAWS[0], DRAWS[1], DRAWS[2],
 pub(super) static MASK: Draw = Draw { fragment: "mark", shares: false, stencil: MARKS, target: nothing, ..OLD_SOFT };
 pub(super) static MASKED_BODIES: Draw = Draw { stencil: IS_MARKED, ..SOFT };
 
-/// Of one wedge what lies behind a half's near faces, which its far faces leave out (PX 4.1.3 the other way round, so that the
-/// eye may be in it).
+/// Of one wedge what lies behind a half's near faces, which its far faces leave out (PX 4.1.3 the
+/// other way round, so that the eye may be in it).
 pub(super) static FRONT_MASK: Draw = Draw {
     fragment: "mark_all",
     shares: false,

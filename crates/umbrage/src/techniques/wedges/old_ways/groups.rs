@@ -17,11 +17,13 @@ pub(super) struct Group {
     pub caps: Range<u32>,
     /// Sides and bodies.
     pub draws: [&'static Draw; 2],
-    /// Of the shadows that the eye is in those that count with it; 0 for what is drawn right into the sum.
+    /// Of the shadows that the eye is in those that count with it; 0 for what is drawn right into
+    /// the sum.
     pub slot: u32,
 }
 
-/// A group for each caster, in order: those whose silhouette is one convex loop are drawn apart, or `all` are.
+/// A group for each caster, in order: those whose silhouette is one convex loop are drawn apart, or
+/// `all` are.
 pub(super) fn find_groups(
     casters: &Casters,
     silhouettes: &Silhouettes,

@@ -1,4 +1,5 @@
-//! `batch = per-wedge`: one wedge after the other, in two halves, each with a mask if there is one (PX 4.1–4.3).
+//! `batch = per-wedge`: one wedge after the other, in two halves, each with a mask if there is one
+//! (PX 4.1–4.3).
 
 use super::super::draws::{self, Draw};
 use super::super::piece::{BODY_INDICES, Piece, Recording, dispatch, prepare_draws};

@@ -12,7 +12,8 @@ const GROUP: u32 = 64u;
 struct Half {
     // In clip space, those between the corners of the front and of the back face.
     corners: array<vec4f, 2>,
-    // 1 where the front half is on the side of the hard shadow, else 0; 2 where it is all of the body.
+    // 1 where the front half is on the side of the hard shadow, else 0; 2 where it is all of the
+    // body.
     front_inside: f32,
 }
 

@@ -1,5 +1,6 @@
-//! The texts' own ways of drawing wedges, kept to be compared with the one draw: one wedge or one convex loop after the other,
-//! casters one by one, and a stencil mask of what is in any body. The default reads none of this; [`way`] is where they hook in.
+//! The texts' own ways of drawing wedges, kept to be compared with the one draw: one wedge or one
+//! convex loop after the other, casters one by one, and a stencil mask of what is in any body. The
+//! default reads none of this; [`way`] is where they hook in.
 
 mod apart;
 mod draws;

@@ -1,4 +1,5 @@
-// Bodies and sides as the texts draw them: marked in the stencil, in halves, loop by loop. After `draw.wgsl`.
+// Bodies and sides as the texts draw them: marked in the stencil, in halves, loop by loop. After
+// `draw.wgsl`.
 
 // Where bodies are cut in two, see `halves.wgsl`.
 @group(3) @binding(0) var<storage, read> halves: array<Half>;
@@ -6,7 +7,8 @@
 struct Half {
     // In clip space, those between the corners of the front and of the back face.
     corners: array<vec4f, 2>,
-    // 1 where the front half is on the side of the hard shadow, else 0; 2 where it is all of the body.
+    // 1 where the front half is on the side of the hard shadow, else 0; 2 where it is all of the
+    // body.
     front_inside: f32,
 }
 
@@ -37,8 +39,8 @@ fn mark_all() -> @location(0) vec2f {
     return vec2f(0.0);
 }
 
-// Of the half that `half_body` drew, which goes by the sign of the plane: its own side's part. Nothing is discarded, since that would leave marks in
-// the stencil.
+// Of the half that `half_body` drew, which goes by the sign of the plane: its own side's part.
+// Nothing is discarded, since that would leave marks in the stencil.
 fn add_half(in: Body, is_front: bool) -> vec2f {
     let at = met(in);
     let front_inside = halves[in.number].front_inside;
@@ -56,8 +58,8 @@ fn add_back_half(in: Body) -> @location(0) vec2f {
     return add_half(in, false);
 }
 
-// Of one loop: the sum of what its wedges add, how often the hard shadow's sides count, how many wedges have the point outside, and how many
-// there are at all.
+// Of one loop: the sum of what its wedges add, how often the hard shadow's sides count, how many
+// wedges have the point outside, and how many there are at all.
 @fragment
 fn add_side_of_loop(in: Side, @builtin(front_facing) from_outside: bool) -> @location(0) vec4f {
     return vec4f(0.0, shadows_of_side(in, from_outside).x, 0.0, 0.0);
