@@ -267,7 +267,7 @@ impl Casters {
         })
     }
 
-    /// Layout of the bind group that `wgsl/casters.wgsl` declares as group 1.
+    /// Layout of the bind group that `casters/casters.wgsl` declares as group 1.
     pub(crate) fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
         layout(gpu, "casters", wgpu::ShaderStages::VERTEX_FRAGMENT, &[STORAGE, STORAGE])
     }

@@ -41,7 +41,7 @@ const WITHOUT_EDGES: [u32; 4] = [1, 2, 3, 4];
 pub(crate) struct Edges {
     /// As `edges.wgsl` declares it, for compute.
     pub find: wgpu::BindGroup,
-    /// As `wgsl/extrude.wgsl` declares it, for drawing.
+    /// As `silhouettes/extrude.wgsl` declares it, for drawing.
     pub draw: wgpu::BindGroup,
     /// The same for compute, without the indices of triangles.
     pub make_edges: wgpu::BindGroup,

@@ -69,7 +69,7 @@ fn bind_group(gpu: &Gpu, texture: &Texture, sampler: &wgpu::Sampler) -> Result<w
     Ok(bind(gpu, &texture.name, &texture_layout(gpu), &resources))
 }
 
-/// Layout of the bind group that `wgsl/materials.wgsl` declares as group 2.
+/// Layout of the bind group that `materials.wgsl` declares as group 2.
 pub(crate) fn texture_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     let filtered = fullscreen::texture(wgpu::TextureSampleType::Float { filterable: true });
     let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);

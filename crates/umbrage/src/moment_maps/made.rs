@@ -12,7 +12,7 @@ pub(super) struct Layer {
     pub(super) copies: Vec<Copy>,
 }
 
-/// A level that has been made, to its place among the others: see `wgsl/moments_share.wgsl`.
+/// A level that has been made, to its place among the others: see `moments_share.wgsl`.
 pub(super) struct Copy {
     pub(super) from: wgpu::Texture,
     pub(super) level: u32,
@@ -122,7 +122,7 @@ impl Workshop<'_> {
         Layer { passes, copies: self.copies(layer) }
     }
 
-    /// Where levels go: see `wgsl/moments_share.wgsl`.
+    /// Where levels go: see `moments_share.wgsl`.
     fn copies(&self, layer: u32) -> Vec<Copy> {
         let (side, views) = (self.moments.width(), self.maps.depth_or_array_layers());
         let copy = |from: &wgpu::Texture, level: u32| Copy {
