@@ -58,6 +58,7 @@ const INFO: TechniqueInfo = TechniqueInfo {
     filter: None,
     lights: LIGHTS,
     features: wgpu::Features::empty(),
+    limits: |limits| limits.max_storage_buffers_per_shader_stage = 2,
     hard: true,
     settings: SettingsOf::new::<OwnMaps>(),
     views: &LAYER_NAMES,
