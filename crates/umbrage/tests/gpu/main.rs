@@ -10,6 +10,7 @@ mod layouts;
 mod light_mask;
 mod limits;
 mod own_maps;
+mod outside;
 mod pcf_blur;
 mod penumbra;
 mod poses;
