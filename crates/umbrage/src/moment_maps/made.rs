@@ -1,7 +1,7 @@
 //! The textures of a light's moments, and the passes that fill each layer in order.
 
 use super::blur::Blur;
-use super::pipelines::{Pipelines, Step};
+use super::pipelines::{AT_ONCE, Pipelines, Step};
 use crate::fullscreen::target_texture;
 use crate::gpu::Gpu;
 
@@ -41,8 +41,6 @@ pub(super) struct Made {
     pub(super) bytes: u64,
 }
 
-/// The most often that moments are halved in the pass that takes them.
-pub(super) const AT_ONCE: u32 = 2;
 /// What some drivers give a texture at most; where coarser levels would not fit, there is the finest alone.
 const MOST_BYTES: u64 = 1 << 31;
 /// Texels of the coarsest mip level at least.

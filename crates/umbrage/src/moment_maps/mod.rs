@@ -8,16 +8,18 @@ mod blur;
 mod made;
 mod pipelines;
 mod range;
+mod recipe;
 
 use crate::casters::Casters;
 use crate::depth_maps::{MapFrame, Stage, TapStage, Taps};
-use crate::fullscreen::{self, FLOATS, UNIFORM, bind, layout};
-use crate::shader::{Shader, Shared, shader_struct};
+use crate::fullscreen::{self, UNIFORM, bind, layout};
+use crate::shader::{Shared, shader_struct};
 use crate::{choices, settings};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
 use blur::Blur;
 use made::Made;
 use pipelines::Pipelines;
+pub(crate) use recipe::{Coding, Recipe};
 
 choices! {
     /// Bits of each stored number.
@@ -64,48 +66,6 @@ shader_struct! {
 
 /// What the host has to agree on with `moments_depth.wgsl`.
 pub(crate) const SHARED: Shared = Shared { module: "moments_depth", layouts: &[Moments::LAYOUT], constants: &[] };
-
-/// How a number is stored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Coding {
-    /// Single precision.
-    Single,
-    /// Half precision.
-    Half,
-    /// 16 bits from 0 to 1.
-    Unorm,
-}
-
-/// What a technique stores.
-pub(crate) struct Recipe {
-    /// The passes, with the technique's `moments_of`.
-    pub(crate) passes: Shader,
-    /// Numbers a texel: 1, 2 or 4.
-    pub(crate) channels: u32,
-    pub(crate) coding: Coding,
-    /// Pipeline-overridable constants of the passes.
-    pub(crate) constants: Vec<(&'static str, f64)>,
-}
-
-impl Recipe {
-    fn format(&self) -> wgpu::TextureFormat {
-        use wgpu::TextureFormat as F;
-        let of = |[one, two, four]: [F; 3]| match self.channels {
-            1 => one,
-            2 => two,
-            _ => four,
-        };
-        of(match self.coding {
-            Coding::Single => [F::R32Float, F::Rg32Float, F::Rgba32Float],
-            Coding::Half => [F::R16Float, F::Rg16Float, F::Rgba16Float],
-            Coding::Unorm => [F::R16Uint, F::Rg16Uint, F::Rgba16Uint],
-        })
-    }
-
-    fn sample_type(&self) -> wgpu::TextureSampleType {
-        if self.coding == Coding::Unorm { wgpu::TextureSampleType::Uint } else { FLOATS }
-    }
-}
 
 /// The stage that turns maps into moments.
 pub(crate) struct MomentStage {

@@ -1,6 +1,6 @@
 //! The modules of WGSL that any shader can need. Each lies beside the code that owns it.
 
-use super::Module;
+use super::needs::Module;
 
 macro_rules! modules {
     ($($folder:literal: $($name:ident)*;)*) => {

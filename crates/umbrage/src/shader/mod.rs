@@ -56,7 +56,7 @@ impl Shader {
     /// # Errors
     /// [`Unresolved`] where there is no such module, or where modules need each other.
     pub fn needs(&self) -> Result<Vec<Module>, Unresolved> {
-        needs::resolve(self.name, self.source, self.modules)
+        needs::resolve(self.name, self.source, [self.modules, library::LIBRARY])
     }
 
     /// The whole text.

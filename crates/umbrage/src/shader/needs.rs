@@ -1,8 +1,6 @@
 //! Modules of WGSL and what they need: the first line of a file names other modules, and a shader
 //! is all of them in order.
 
-use super::library::LIBRARY;
-
 /// Plain WGSL that others need by its name.
 #[derive(Clone, Copy, Debug)]
 pub struct Module {
@@ -34,15 +32,19 @@ fn needs_of(source: &'static str) -> impl Iterator<Item = &'static str> {
     first.into_iter().flat_map(|list| list.split(',').map(str::trim))
 }
 
-/// The modules of a shader, each after those that it needs itself. `own` go before the library.
-pub(super) fn resolve(name: &'static str, source: &'static str, own: &[Module]) -> Result<Vec<Module>, Unresolved> {
-    let mut search = Search { own, found: Vec::new(), under_way: Vec::new() };
+/// The modules of a shader, each after those that it needs itself. Needs are looked for in `known`, from the front.
+pub(super) fn resolve(
+    name: &'static str,
+    source: &'static str,
+    known: [&[Module]; 2],
+) -> Result<Vec<Module>, Unresolved> {
+    let mut search = Search { known, found: Vec::new(), under_way: Vec::new() };
     search.add_needs(Module { name, source })?;
     Ok(search.found)
 }
 
 struct Search<'a> {
-    own: &'a [Module],
+    known: [&'a [Module]; 2],
     found: Vec<Module>,
     /// Modules whose needs are being looked for, each needed by the one before.
     under_way: Vec<&'static str>,
@@ -57,7 +59,7 @@ impl Search<'_> {
             if let Some(start) = self.under_way.iter().position(|name| *name == need) {
                 return Err(Unresolved::Cycle(self.under_way[start..].to_vec()));
             }
-            let known = self.own.iter().chain(LIBRARY).find(|module| module.name == need);
+            let known = self.known.into_iter().flatten().find(|module| module.name == need);
             let module = *known.ok_or(Unresolved::Unknown { by: of.name, need })?;
             self.under_way.push(need);
             self.add_needs(module)?;
@@ -70,6 +72,7 @@ impl Search<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::library::LIBRARY;
     use super::*;
 
     const fn module(name: &'static str, source: &'static str) -> Module {
@@ -77,7 +80,7 @@ mod tests {
     }
 
     fn names(source: &'static str, own: &[Module]) -> Result<Vec<&'static str>, Unresolved> {
-        resolve("test", source, own).map(|found| found.iter().map(|module| module.name).collect())
+        resolve("test", source, [own, LIBRARY]).map(|found| found.iter().map(|module| module.name).collect())
     }
 
     #[test]
