@@ -6,16 +6,17 @@ use crate::{
     given::Given,
     measure::{Frames, is_of_technique},
     pictures::{Pictures, grey, opaque},
-    record::{CostRecord, PassRecord, ReferenceRecord, ResultRecord, ScoresRecord},
+    record::{CostRecord, PassRecord, RadianceRecord, ReferenceRecord, ResultRecord, ScoresRecord},
     source::Source,
     stage::{Actor, Stage},
     truth::{Tracing, Truth},
 };
 use std::{collections::BTreeMap, time::Duration};
-use umbrage::{Gpu, Technique};
+use umbrage::{Answer, Gpu, Technique};
 use umbrage_core::Image;
 use umbrage_metrics::{
-    Comparison, Scores, aliasing, around_borders, footprint_colors, heat, reach_of, score, seam, texel_footprint,
+    Comparison, RadianceComparison, Scores, aliasing, around_borders, footprint_colors, heat, luminance, reach_of,
+    score, score_radiance, seam, texel_footprint,
 };
 use umbrage_reference::Geometry;
 use umbrage_renderer::{LightPass, Renderer};
@@ -31,11 +32,22 @@ pub(crate) struct Cell<'a> {
 
 /// A technique's last frame, held against the truth.
 pub(crate) struct Scored {
-    pub scores: ScoresRecord,
+    pub found: Found,
     pub cost: CostRecord,
-    visibility: Image<f32>,
-    /// For techniques with maps: how large their texels are on the screen.
-    footprint: Option<Image<f32>>,
+}
+
+/// The answer of a technique, and its errors.
+pub(crate) enum Found {
+    Visibility {
+        scores: ScoresRecord,
+        picture: Image<f32>,
+        /// For techniques with maps: how large their texels are on the screen.
+        footprint: Option<Image<f32>>,
+    },
+    Radiance {
+        scores: RadianceRecord,
+        picture: Image<[f32; 3]>,
+    },
 }
 
 /// Time for the frames of one technique; one that needs longer is measured over fewer.
@@ -54,7 +66,8 @@ impl Cell<'_> {
         let mut record = ResultRecord::of(choice);
         let mut shown = Pictures::default();
         let filled = self.actor(choice).and_then(|actor| {
-            stage.act(self.light, actor, |renderer| self.fill(&mut record, renderer, choice, frames, place, &mut shown))
+            let name = format!("{place}-{}", choice.label());
+            stage.act(self.light, actor, |renderer| self.fill(&mut record, renderer, frames, &name, &mut shown))
         });
         match filled {
             Ok(_) => pictures.files.append(&mut shown.files),
@@ -73,24 +86,31 @@ impl Cell<'_> {
         &self,
         record: &mut ResultRecord,
         renderer: &mut Renderer,
-        choice: &Choice,
         frames: u32,
-        place: &str,
+        name: &str,
         pictures: &mut Pictures,
     ) -> Result<(), Error> {
-        let Scored { scores, cost, visibility, footprint } = self.scored(renderer, frames)?;
-        (record.scores, record.cost) = (Some(scores), Some(cost));
-        let error = heat(&visibility, &self.truth.visibility, &self.truth.mask);
-        let name = format!("{place}-{}", choice.label());
-        record.pictures = BTreeMap::from([
-            ("color", pictures.add(&format!("{name}-color"), &opaque(&renderer.color()?))?),
-            ("visibility", pictures.add(&format!("{name}-visibility"), &grey(&visibility))?),
-            ("error", pictures.add(&format!("{name}-error"), &error)?),
-        ]);
-        if let Some(footprint) = footprint {
-            record.aliasing = aliasing(&footprint, &self.truth.mask).map(Into::into);
-            let picture = pictures.add(&format!("{name}-aliasing"), &footprint_colors(&footprint))?;
-            record.pictures.insert("aliasing", picture);
+        let Scored { found, cost } = self.scored(renderer, frames)?;
+        record.cost = Some(cost);
+        let mut add = |kind, picture: &Image<[u8; 3]>| {
+            record.pictures.insert(kind, pictures.add(&format!("{name}-{kind}"), picture)?);
+            Ok::<_, Error>(())
+        };
+        add("color", &opaque(&renderer.color()?))?;
+        match found {
+            Found::Visibility { scores, picture, footprint } => {
+                record.scores = Some(scores);
+                add("visibility", &grey(&picture))?;
+                add("error", &heat(&picture, &self.truth.visibility, &self.truth.mask))?;
+                if let Some(footprint) = footprint {
+                    record.aliasing = aliasing(&footprint, &self.truth.mask).map(Into::into);
+                    add("aliasing", &footprint_colors(&footprint))?;
+                }
+            }
+            Found::Radiance { scores, picture } => {
+                record.radiance = Some(scores);
+                add("error", &self.radiance_heat(&picture)?)?;
+            }
         }
         Ok(())
     }
@@ -98,17 +118,49 @@ impl Cell<'_> {
     /// Measures up to `frames` of the technique on stage, and scores the last.
     pub(crate) fn scored(&self, renderer: &mut Renderer, frames: u32) -> Result<Scored, Error> {
         let frames = Frames::measure(renderer, &self.source.scene.camera, frames, TIME_LIMIT)?;
-        let visibility = renderer.visibility(0)?;
+        let found = match renderer.technique(0).map(Technique::answer).unwrap_or_default() {
+            Answer::Visibility => self.visibility(renderer)?,
+            Answer::Radiance => self.radiance(renderer)?,
+        };
+        Ok(Scored { found, cost: cost(&frames, renderer) })
+    }
+
+    fn visibility(&self, renderer: &Renderer) -> Result<Found, Error> {
+        let picture = renderer.visibility(0)?;
         let footprint = self.footprint(renderer);
-        let scores = self.score(&visibility, footprint.as_ref().map(reach_of).as_ref())?;
-        let scores = ScoresRecord { seam: self.seam(&visibility, renderer)?, ..scores.into() };
-        Ok(Scored { scores, cost: cost(&frames, renderer), visibility, footprint })
+        let scores = self.score(&picture, footprint.as_ref().map(reach_of).as_ref())?;
+        let scores = ScoresRecord { seam: self.seam(&picture, renderer)?, ..scores.into() };
+        Ok(Found::Visibility { scores, picture, footprint })
+    }
+
+    fn radiance(&self, renderer: &Renderer) -> Result<Found, Error> {
+        let picture = renderer.radiance(0)?;
+        let (reference, mask) = (self.true_radiance()?, &self.truth.mask);
+        let scores = score_radiance(&RadianceComparison { produced: &picture, reference, mask })?.into();
+        Ok(Found::Radiance { scores, picture })
+    }
+
+    fn true_radiance(&self) -> Result<&Image<[f32; 3]>, Error> {
+        self.truth.radiance.as_ref().ok_or_else(|| {
+            let kind = self.source.scene.lights[self.light].shape.kind().name();
+            let what = format!("{kind} lights: the truth of their radiance is not known");
+            umbrage::Error::Unsupported { technique: "radiance".into(), what }.into()
+        })
+    }
+
+    /// Where radiance is wrong. The truth's mean luminance is a grey of one half.
+    fn radiance_heat(&self, produced: &Image<[f32; 3]>) -> Result<Image<[u8; 3]>, Error> {
+        let (reference, mask) = (self.true_radiance()?, &self.truth.mask);
+        let scored = || reference.data.iter().zip(&mask.data).filter(|(_, scored)| **scored);
+        let mean = scored().map(|(color, _)| luminance(color)).sum::<f64>() / scored().count().max(1) as f64;
+        let grey = |picture: &Image<[f32; 3]>| picture.map(|color| (0.5 * luminance(color) / mean.max(1e-30)) as f32);
+        Ok(heat(&grey(produced), &grey(reference), mask))
     }
 
     /// The record of the truth itself, with the scene shaded under it. Where the GPU fails, that picture is left out:
     /// the techniques' own records say why.
     pub(crate) fn reference(&self, place: &str, pictures: &mut Pictures) -> Result<ReferenceRecord, Error> {
-        let Truth { visibility, mask, hard, source, samples, seconds } = self.truth;
+        let Truth { visibility, mask, hard, source, samples, seconds, .. } = self.truth;
         let mut shown = BTreeMap::new();
         if let Ok(color) = self.shade(visibility) {
             shown.insert("color", pictures.add(&format!("{place}-reference-color"), &opaque(&color))?);
@@ -177,5 +229,92 @@ fn cost(frames: &Frames, renderer: &Renderer) -> CostRecord {
         triangles: stats.triangles,
         bytes: stats.bytes,
         counts: renderer.counts(0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::progress::Silent;
+    use umbrage::{Inside, Passes, RadianceTarget, Stats, View, VisibilityTarget, fullscreen::attachment};
+
+    /// The same radiance from everywhere.
+    struct Constant([f64; 3]);
+
+    impl Technique for Constant {
+        fn prepare(&mut self, _: &Gpu, _: &View<'_>) -> Result<(), umbrage::Error> {
+            Ok(())
+        }
+
+        fn record(&mut self, _: &mut Passes<'_>, _: &View<'_>, _: &VisibilityTarget) -> Result<(), umbrage::Error> {
+            self.answer().refuse()
+        }
+
+        fn answer(&self) -> Answer {
+            Answer::Radiance
+        }
+
+        fn record_radiance(
+            &mut self,
+            passes: &mut Passes<'_>,
+            _: &View<'_>,
+            radiance: &RadianceTarget,
+        ) -> Result<(), umbrage::Error> {
+            let [r, g, b] = self.0;
+            let color = wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a: 1.0 });
+            passes.render("constant", &[attachment(&radiance.view, color)], None);
+            Ok(())
+        }
+
+        fn inside(&self) -> &dyn Inside {
+            self
+        }
+
+        fn inside_mut(&mut self) -> &mut dyn Inside {
+            self
+        }
+    }
+
+    impl Inside for Constant {
+        fn stats(&self) -> Stats {
+            Stats::default()
+        }
+    }
+
+    #[test]
+    fn radiance_is_scored_as_radiance() {
+        let gpu = Gpu::request(None).unwrap();
+        let source = Source::open("contact:0.2").unwrap();
+        let tracing = Tracing::new(&source, 48, 36);
+        let mut truth = tracing.truth(None, &source, 0, 1, &Silent).unwrap();
+        truth.radiance = Some(Image::filled(48, 36, [0.5; 3]));
+        let choice = Choice::parse("none", &[]).unwrap();
+        let run = |truth: &Truth, technique: Box<dyn Technique>| {
+            let cell = Cell { gpu: &gpu, source: &source, light: 0, truth, tracing: &tracing };
+            let mut stage = Stage::new(&gpu, &source, (48, 36));
+            let mut record = ResultRecord::of(&choice);
+            let mut pictures = Pictures::default();
+            let acted = stage.act(0, Actor::new(&gpu, technique), |renderer| {
+                cell.fill(&mut record, renderer, 1, "constant", &mut pictures)
+            });
+            acted.map(|_| (record, pictures))
+        };
+        let (record, pictures) = run(&truth, Box::new(Constant([0.625; 3]))).unwrap();
+        let scores = record.radiance.unwrap();
+        for error in [scores.relative_mae, scores.relative_rmse, scores.relative_bias] {
+            assert!(error.is_some_and(|e| (e - 0.25).abs() < 1e-6), "{scores:?}");
+        }
+        assert!(record.scores.is_none() && record.cost.is_some());
+        assert_eq!(record.pictures.keys().copied().collect::<Vec<_>>(), ["color", "error"]);
+        assert_eq!(pictures.files.len(), 2);
+        let (below, _) = run(&truth, Box::new(Constant([0.5, 0.5, -0.5]))).unwrap();
+        assert_eq!(below.radiance.map(|scores| scores.negative_pct), Some(100.0));
+
+        let (shadow, _) = run(&truth, choice.make(&gpu).unwrap()).unwrap();
+        assert!(shadow.radiance.is_none() && shadow.scores.is_some(), "visibility is scored as visibility");
+
+        truth.radiance = None;
+        let unknown = run(&truth, Box::new(Constant([1.0; 3]))).err().unwrap().to_string();
+        assert!(unknown.contains("truth of their radiance"), "{unknown}");
     }
 }

@@ -107,6 +107,53 @@ pub const COLUMNS: [Column; 20] = [
     cost("triangles", "triangles", 1.0, 0, false, "Triangles that the technique sends to the GPU in a frame."),
 ];
 
+const fn radiance(
+    name: &'static str,
+    field: &'static str,
+    better: Option<&'static str>,
+    digits: usize,
+    brief: bool,
+    help: &'static str,
+) -> Column {
+    Column { name, help, path: ["radiance", field], better, scale: 1.0, digits, brief }
+}
+
+/// Those of techniques that answer with radiance; shown where there are some.
+pub const RADIANCE_COLUMNS: [Column; 4] = [
+    radiance(
+        "relative mae",
+        "relative_mae",
+        Some("less"),
+        4,
+        true,
+        "Mean absolute error of luminance over the scored pixels, as a share of the truth's mean luminance.",
+    ),
+    radiance(
+        "relative rmse",
+        "relative_rmse",
+        Some("less"),
+        4,
+        true,
+        "Root of the mean squared error of luminance, as a share of the truth's mean luminance.",
+    ),
+    radiance(
+        "relative bias",
+        "relative_bias",
+        None,
+        4,
+        false,
+        "Mean error of luminance, as a share of the truth's mean luminance: over 0 where the picture is too bright.",
+    ),
+    radiance(
+        "negative %",
+        "negative_pct",
+        Some("less"),
+        2,
+        true,
+        "Percentage of scored pixels with a channel under 0.",
+    ),
+];
+
 impl Column {
     /// The number of a result given as JSON; `None` where it has none.
     pub fn value(&self, result: &Value) -> Option<f64> {

@@ -25,6 +25,7 @@ pub(crate) fn fixture() -> Report {
         status,
         reason: reason.map(String::from),
         scores: None,
+        radiance: None,
         cost: None,
         aliasing: None,
         pictures: BTreeMap::new(),

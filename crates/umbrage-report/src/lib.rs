@@ -36,7 +36,7 @@ mod truth;
 
 pub use bench::{Bench, BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene};
 pub use choice::{Choice, LIGHT_SAMPLES, RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced};
-pub use column::{COLUMNS, Column};
+pub use column::{COLUMNS, Column, RADIANCE_COLUMNS};
 pub use compare::{Compare, Outcome};
 pub use error::Error;
 pub use html::page;

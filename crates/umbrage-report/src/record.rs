@@ -4,7 +4,7 @@ pub use crate::status::Status;
 use crate::{choice::Choice, error::Error, made::Made, round::maybe_six, round::six};
 use serde::{Serialize, Serializer};
 use std::{collections::BTreeMap, fmt::Display};
-use umbrage_metrics::{Aliasing, Scores};
+use umbrage_metrics::{Aliasing, RadianceScores, Scores};
 
 /// Version of the data in `report.json` and of what `bench` prints.
 pub const SCHEMA: u32 = 1;
@@ -90,8 +90,11 @@ pub struct ResultRecord {
     pub status: Status,
     /// Why it is not `ok`; null where it is.
     pub reason: Option<String>,
-    /// Errors; null unless `ok`.
+    /// Errors of visibility; null unless `ok`.
     pub scores: Option<ScoresRecord>,
+    /// Errors of radiance; only there where the technique answers with radiance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radiance: Option<RadianceRecord>,
     /// Costs; null unless `ok`.
     pub cost: Option<CostRecord>,
     /// Size of the maps' texels on the screen over the scored pixels; null without maps, and unless `ok`.
@@ -111,6 +114,7 @@ impl ResultRecord {
             status: Status::Ok,
             reason: None,
             scores: None,
+            radiance: None,
             cost: None,
             aliasing: None,
             pictures: BTreeMap::new(),
@@ -121,7 +125,7 @@ impl ResultRecord {
     pub(crate) fn fail(&mut self, error: &Error) {
         let (status, reason) = Status::of(error);
         (self.status, self.reason) = (status, Some(reason));
-        (self.scores, self.cost, self.aliasing) = (None, None, None);
+        (self.scores, self.radiance, self.cost, self.aliasing) = (None, None, None, None);
         self.pictures.clear();
     }
 }
@@ -182,6 +186,40 @@ impl From<Scores> for ScoresRecord {
             false_shadow: s.false_shadow,
             vs_hard: s.vs_hard,
             seam: None,
+            scored_pixels: s.scored_pixels,
+            not_finite: s.not_finite,
+        }
+    }
+}
+
+/// Errors of radiance over the scored pixels, see [`RadianceScores`].
+#[derive(Clone, Debug, Serialize)]
+pub struct RadianceRecord {
+    /// See [`RadianceScores::relative_mae`]; so for the others.
+    #[serde(serialize_with = "maybe_six")]
+    pub relative_mae: Option<f64>,
+    /// Root of the mean square.
+    #[serde(serialize_with = "maybe_six")]
+    pub relative_rmse: Option<f64>,
+    /// Mean error, over 0 where the picture is too bright.
+    #[serde(serialize_with = "maybe_six")]
+    pub relative_bias: Option<f64>,
+    /// Percentage of pixels with a channel under 0.
+    #[serde(serialize_with = "six")]
+    pub negative_pct: f64,
+    /// Pixels compared.
+    pub scored_pixels: usize,
+    /// How many of them were NaN or infinite.
+    pub not_finite: usize,
+}
+
+impl From<RadianceScores> for RadianceRecord {
+    fn from(s: RadianceScores) -> Self {
+        Self {
+            relative_mae: s.relative_mae,
+            relative_rmse: s.relative_rmse,
+            relative_bias: s.relative_bias,
+            negative_pct: s.negative_pct,
             scored_pixels: s.scored_pixels,
             not_finite: s.not_finite,
         }
@@ -257,6 +295,7 @@ pub struct PassRecord {
 
 #[cfg(test)]
 mod tests {
+    use super::RadianceRecord;
     use crate::fixture::fixture;
 
     #[test]
@@ -279,8 +318,18 @@ mod tests {
 
     #[test]
     fn every_column_finds_its_number() {
-        let result = serde_json::to_value(&fixture().scenes[0].lights[0].results[0]).unwrap();
-        for column in crate::column::COLUMNS {
+        let mut result = fixture().scenes.remove(0).lights.remove(0).results.remove(0);
+        assert!(serde_json::to_value(&result).unwrap().get("radiance").is_none(), "readers know no such name");
+        result.radiance = Some(RadianceRecord {
+            relative_mae: Some(0.1),
+            relative_rmse: Some(0.2),
+            relative_bias: Some(0.0),
+            negative_pct: 1.0,
+            scored_pixels: 9,
+            not_finite: 0,
+        });
+        let result = serde_json::to_value(&result).unwrap();
+        for column in crate::column::COLUMNS.into_iter().chain(crate::column::RADIANCE_COLUMNS) {
             let [group, field] = column.path;
             assert!(result[group].get(field).is_some(), "column {} points at nothing", column.name);
         }

@@ -1,7 +1,7 @@
 //! The report on a terminal.
 
 use crate::{
-    column::{COLUMNS, Column},
+    column::{COLUMNS, Column, RADIANCE_COLUMNS},
     record::{LightRecord, Report, ResultRecord, Status},
 };
 use comfy_table::{Attribute, Cell, CellAlignment, ContentArrangement, LineStyle, Table, presets::NOTHING};
@@ -37,7 +37,8 @@ pub(crate) fn title(result: &ResultRecord) -> String {
 fn light_table(light: &LightRecord) -> Table {
     let values: Vec<Value> = light.results.iter().map(|r| serde_json::to_value(r).unwrap_or_default()).collect();
     let says_something = |column: &Column| values.iter().any(|v| column.value(v).is_some());
-    let columns: Vec<Column> = COLUMNS.into_iter().filter(|c| c.brief && says_something(c)).collect();
+    let columns: Vec<Column> =
+        COLUMNS.into_iter().chain(RADIANCE_COLUMNS).filter(|c| c.brief && says_something(c)).collect();
     let best: Vec<Option<f64>> = columns.iter().map(|c| best(c, &values)).collect();
     let mut table = plain(std::iter::once("technique").chain(columns.iter().map(|c| c.name)));
     for (result, value) in light.results.iter().zip(&values) {

@@ -21,6 +21,8 @@ pub struct Tracing {
 pub struct Truth {
     /// Visibility, 0 where a pixel is not scored.
     pub visibility: Image<f32>,
+    /// The light that goes from each pixel to the eye, for techniques that answer with radiance; `None` where it is not known.
+    pub radiance: Option<Image<[f32; 3]>>,
     /// Pixels that count: receiving, facing the light, not beside a depth discontinuity.
     pub mask: Image<bool>,
     /// The perfect hard shadow, for lights with an extent.
@@ -81,6 +83,7 @@ impl Tracing {
             mask: without(&truth.scored, &self.edges),
             hard: soft.then(|| self.hard(light, textures, progress)),
             visibility: truth.visibility,
+            radiance: None,
             source: match samples {
                 1 => "ray-traced, one ray to the light's centre".into(),
                 n => format!("ray-traced, {n} samples"),
@@ -110,6 +113,7 @@ impl Tracing {
             mask: without(&stored.mask, &edges),
             hard: soft.then(|| self.hard(light, &source.scene.textures, progress)),
             visibility: stored.visibility,
+            radiance: None,
             source: format!("stored in {}", folder.display()),
             samples: None,
             seconds: 0.0,

@@ -1,7 +1,7 @@
 //! Reports as pages that need no network and no other file.
 
 use crate::{
-    column::{COLUMNS, Column},
+    column::{COLUMNS, Column, RADIANCE_COLUMNS},
     record::Report,
     sweep::{
         measures::{MEASURES, Measure},
@@ -49,7 +49,7 @@ const SWEEP: Frame = Frame {
 struct Data<'a> {
     report: &'a Report,
     pictures: BTreeMap<&'a str, String>,
-    metrics: [Column; COLUMNS.len()],
+    metrics: Vec<Column>,
 }
 
 /// What the page of a sweep reads.
@@ -72,7 +72,10 @@ struct Explained {
 
 /// The page of a comparison. `pictures` maps the names in `report` to the bytes of PNG files.
 pub fn page(report: &Report, pictures: &BTreeMap<String, Vec<u8>>) -> String {
-    filled(&COMPARE, &Data { report, pictures: embedded(pictures), metrics: COLUMNS })
+    let mut results = report.scenes.iter().flat_map(|scene| &scene.lights).flat_map(|light| &light.results);
+    let radiance = if results.any(|result| result.radiance.is_some()) { &RADIANCE_COLUMNS[..] } else { &[] };
+    let metrics = [&COLUMNS, radiance].concat();
+    filled(&COMPARE, &Data { report, pictures: embedded(pictures), metrics })
 }
 
 /// The page of a sweep.

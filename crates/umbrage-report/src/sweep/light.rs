@@ -1,11 +1,12 @@
 //! A light under all settings. Each is made once: it is scored, then takes turns with others until its time is known.
 
 use crate::{
-    cell::{Cell, Scored},
+    cell::{Cell, Found, Scored},
     choice::Choice,
     error::Error,
     pictures::Pictures,
     progress::Progress,
+    record::{CostRecord, ScoresRecord},
     source::Source,
     stage::{Actor, Stage},
     status::Status,
@@ -20,7 +21,7 @@ use crate::{
     truth::{Tracing, Truth},
 };
 use std::collections::BTreeMap;
-use umbrage::Gpu;
+use umbrage::{Answer, Gpu};
 
 pub(crate) struct LightRun<'a> {
     pub gpu: &'a Gpu,
@@ -56,10 +57,10 @@ impl LightRun<'_> {
             if !(refused && setting.by_rule) {
                 let mut result = SweepResult::of(&setting.choice);
                 match made.and_then(|actor| self.scored(&cell, stage, actor)) {
-                    Ok((actor, scored)) => {
-                        result.errors = errors(&scored.scores);
-                        result.scores = Some(scored.scores);
-                        timing.add(stage, results.len(), actor, scored.cost.bytes);
+                    Ok((actor, (scores, cost))) => {
+                        result.errors = errors(&scores);
+                        result.scores = Some(scores);
+                        timing.add(stage, results.len(), actor, cost.bytes);
                     }
                     Err(error) => result.fail(&error),
                 }
@@ -81,8 +82,17 @@ impl LightRun<'_> {
     }
 
     /// A frame to warm up, and one that counts.
-    fn scored(&self, cell: &Cell<'_>, stage: &mut Stage<'_>, actor: Actor) -> Result<(Actor, Scored), Error> {
-        stage.act(self.light, actor, |renderer| cell.scored(renderer, 1))
+    fn scored(
+        &self,
+        cell: &Cell<'_>,
+        stage: &mut Stage<'_>,
+        actor: Actor,
+    ) -> Result<(Actor, (ScoresRecord, CostRecord)), Error> {
+        stage.act(self.light, actor, |renderer| match cell.scored(renderer, 1)? {
+            Scored { found: Found::Visibility { scores, .. }, cost } => Ok((scores, cost)),
+            // The errors of a sweep are those of visibility.
+            Scored { found: Found::Radiance { .. }, .. } => Ok(Answer::Radiance.refuse()?),
+        })
     }
 }
 
