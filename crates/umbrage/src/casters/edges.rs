@@ -32,8 +32,8 @@ const SAME_DIRECTION: u32 = 0x8000_0000;
 /// The plane of a triangle that no edge has, such as a copy of another one.
 const LEFT_OUT: Vec4 = Vec4::new(0.0, 0.0, 0.0, -1.0);
 
-/// Bindings of [`Edges::draw`] that compute reads. WebGPU promises eight storage buffers a stage, and silhouettes and what is
-/// made of them take four.
+/// Bindings of [`Edges::draw`] that compute reads. WebGPU promises eight storage buffers a stage,
+/// and silhouettes and what is made of them take four.
 const WITHOUT_INDICES: [u32; 4] = [0, 1, 2, 4];
 const WITHOUT_EDGES: [u32; 4] = [1, 2, 3, 4];
 

@@ -1,11 +1,40 @@
 //! What the user chooses.
 
-use super::Wedges;
-use crate::choices;
-use crate::{error::Error, gpu::Gpu};
+use crate::{choices, error::Error, gpu::Gpu, settings};
 
 /// What users type.
 pub(super) const ID: &str = "wedges";
+
+settings! {
+    /// Settings of penumbra wedges.
+    pub struct Wedges {
+        /// What is drawn at once: all wedges of the light; every caster whose silhouette is one
+        /// convex loop, and the others as with `all`; or single wedges, in two halves.
+        batch: Batch = Batch::All,
+        /// What happens where casters hide the same part of the light: their shares are added, or
+        /// the largest one counts.
+        combine: Combine = Combine::Sum,
+        /// What removes pixels that are in no wedge: the shader, or a stencil mask before it.
+        /// `auto` takes the mask for single wedges only.
+        cull: Cull = Cull::Auto,
+        /// Size of the buffer in which shares are added, relative to the picture.
+        scale: Scale = Scale::Whole,
+        /// GPU time by which the scale is chosen in every frame; 0 keeps `scale`.
+        budget_ms: f64 = 0.0, in 0.0..=1000.0, unit "ms",
+        /// Columns and rows into which the light is split, each piece with silhouettes of its own.
+        /// A line is split into that many parts.
+        split_light: u32 = 1, in 1..=3,
+        /// How the share that an edge covers of a sphere, an ellipsoid, a disc or a sun is found:
+        /// by a formula, or by two look-ups of 32³ values. Textured rectangles always have a table,
+        /// other lights none.
+        coverage: Coverage = Coverage::Analytic,
+        /// Radius of point and spot lights, which are hard without one.
+        radius: f64 = 0.0, in 0.0..=1000.0, unit "m",
+        /// For hosts that cull faces or hide casters from the camera: counts all casters from
+        /// infinity, with both sides of meshes.
+        unseen: bool = false,
+    }
+}
 
 choices! {
     /// What becomes of casters that hide the same part of the light.

@@ -4,7 +4,7 @@ use super::budget::Budget;
 use super::draws;
 use super::old_ways;
 use super::one_draw::OneDraw;
-use super::options::{ID, Options};
+use super::options::{self, ID, Options};
 use super::piece::{Piece, Recording, is_reversed};
 use super::pipelines::{Key, Pipelines, Resolve};
 use super::records::GROUP;
@@ -43,7 +43,7 @@ pub(super) struct Wedges {
 const FACES: [u16; 24] = [5, 4, 2, 5, 2, 3, 1, 0, 2, 1, 2, 4, 0, 1, 5, 0, 5, 3, 0, 3, 2, 1, 4, 5];
 
 impl Wedges {
-    pub fn new(gpu: &Gpu, settings: &super::Wedges) -> Result<Self, Error> {
+    pub fn new(gpu: &Gpu, settings: &options::Wedges) -> Result<Self, Error> {
         let options = Options::new(gpu, settings)?;
         let one_draw = || Box::new(OneDraw { is_split: options.split > 1 }) as Box<dyn Way>;
         let indices: Vec<u16> = (0..GROUP as u16).flat_map(|i| FACES.map(|corner| i * 6 + corner)).collect();

@@ -1,4 +1,4 @@
-//! The texts' own ways of drawing wedges, kept to be compared with the one draw: one wedge or one
+//! The papers' own ways of drawing wedges, kept to be compared with the one draw: one wedge or one
 //! convex loop after the other, casters one by one, and a stencil mask of what is in any body. The
 //! default reads none of this; [`way`] is where they hook in.
 
@@ -11,8 +11,7 @@ mod masked;
 
 pub(super) use draws::SHADERS;
 
-use super::Wedges;
-use super::options::{Batch, Combine, Cull, ID};
+use super::options::{Batch, Combine, Cull, ID, Wedges};
 use super::way::Way;
 use crate::{error::Error, gpu::Gpu};
 use apart::{Apart, Kind};

@@ -1,4 +1,4 @@
-// Bodies and sides as the texts draw them: marked in the stencil, in halves, loop by loop. After
+// Bodies and sides as the papers draw them: marked in the stencil, in halves, loop by loop. After
 // `draw.wgsl`.
 
 // Where bodies are cut in two, see `halves.wgsl`.
