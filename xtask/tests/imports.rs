@@ -185,7 +185,7 @@ fn source(krate: &str) -> Modules {
 }
 
 /// Folders of the library whose files import each other in one direction.
-const FOLDERS: [&str; 8] = [
+const FOLDERS: [&str; 9] = [
     "depth_maps",
     "moment_maps",
     "silhouettes",
@@ -194,6 +194,7 @@ const FOLDERS: [&str; 8] = [
     "shader",
     "settings",
     "techniques::light_mask",
+    "techniques::wedges",
 ];
 
 #[test]

@@ -1,6 +1,7 @@
 //! A filter of one width.
 
-use super::{Components, Evsm};
+use super::Components;
+use super::Evsm;
 use crate::depth_maps::{MapSetup, MapTechnique};
 use crate::moment_maps::{Coding, MomentStage, Recipe};
 use crate::shader::{Module, Shader};
