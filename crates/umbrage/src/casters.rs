@@ -1,8 +1,9 @@
 //! The scene's triangles on the GPU, drawn in as few calls as there are meshes.
 //!
-//! All meshes share one vertex and one index buffer. Instances lie in a storage buffer, relative to the middle of the
-//! scene, so that single precision is enough wherever the scene is. A draw is one mesh with a list of instance
-//! numbers as its per-instance vertex buffer: culling writes that list and nothing else.
+//! All meshes share one vertex and one index buffer. Instances lie in a storage buffer, relative to
+//! the middle of the scene, so that single precision is enough wherever the scene is. A draw is one
+//! mesh with a list of instance numbers as its per-instance vertex buffer: culling writes that list
+//! and nothing else.
 
 use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{error::Error, gpu::Gpu, passes::Passes, shader::Shared, shader::shader_struct};
@@ -44,7 +45,8 @@ const INSTANCES: Shared = Shared {
 pub(crate) const SHARED: &[Shared] = &[INSTANCES, material::SHARED, edges::SHARED, poses::SHARED];
 
 shader_struct! {
-    /// A placed mesh; the rows of an affine matrix from mesh space to world space about [`Casters::origin`].
+    /// A placed mesh; the rows of an affine matrix from mesh space to world space about
+    /// [`Casters::origin`].
     pub(crate) struct Instance {
         row0: [f32; 4],
         row1: [f32; 4],
@@ -60,8 +62,8 @@ shader_struct! {
 const RECEIVES: u32 = 1;
 const CASTS: u32 = 2;
 
-/// Meshes and instances on the GPU: all that casts shadows, and all that shadows fall on (with `casts` off where it casts
-/// none), since maps are fitted to that.
+/// Meshes and instances on the GPU: all that casts shadows, and all that shadows fall on (with
+/// `casts` off where it casts none), since maps are fitted to that.
 pub struct Casters {
     origin: DVec3,
     pub(crate) bind_group: wgpu::BindGroup,
@@ -76,7 +78,8 @@ pub struct Casters {
     placed: Vec<Placed>,
     /// Where in `placed` each instance is.
     place_of: Vec<u32>,
-    /// The number of the instance at each place and the batch that it belongs to: what lists need, packed.
+    /// The number of the instance at each place and the batch that it belongs to: what lists need,
+    /// packed.
     number_of: Vec<u32>,
     batch_of: Vec<u32>,
     /// Boxes of the instances that cast shadows, by their place in `placed`.
@@ -88,7 +91,8 @@ pub struct Casters {
     moves: Moves,
     /// Places of those that are convex bodies wound outwards.
     solid: Places,
-    /// Without appearance, for what is made of them on demand: those of the scene, then one for each posed instance.
+    /// Without appearance, for what is made of them on demand: those of the scene, then one for
+    /// each posed instance.
     meshes: Vec<MeshPart>,
     poses: Poses,
     edges: OnceLock<Edges>,
@@ -134,7 +138,8 @@ impl Casters {
     /// Uploads a scene's meshes, instances, materials and textures.
     ///
     /// # Errors
-    /// [`Error::Size`] beyond the adapter's limits; [`Error::Scene`] for an index that leads nowhere.
+    /// [`Error::Size`] beyond the adapter's limits; [`Error::Scene`] for an index that leads
+    /// nowhere.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, Error> {
         check(gpu, scene)?;
         let origin = scene.bounds().center();
@@ -272,9 +277,10 @@ impl Casters {
         layout(gpu, "casters", wgpu::ShaderStages::VERTEX_FRAGMENT, &[STORAGE, STORAGE])
     }
 
-    /// Moves an instance (by its place in [`Scene::instances`]); one small upload, nothing is rebuilt. A number that is not
-    /// in the scene changes nothing, nor does a place that the instance has already: whoever has not moved lately is at
-    /// rest, and maps of those at rest are kept.
+    /// Moves an instance (by its place in [`Scene::instances`]); one small upload, nothing is
+    /// rebuilt. A number that is not in the scene changes nothing, nor does a place that the
+    /// instance has already: whoever has not moved lately is at rest, and maps of those at rest are
+    /// kept.
     pub fn move_instance(&mut self, gpu: &Gpu, instance: usize, world_from_mesh: &DAffine3) {
         let Some(&place) = self.place_of.get(instance) else { return };
         let placed = &mut self.placed[place as usize];
@@ -294,10 +300,11 @@ impl Casters {
         self.note_moved(place);
     }
 
-    /// Bends an instance that has a [`umbrage_core::Pose`] (by its place in [`Scene::instances`]): `joints` are what each of its
-    /// joints does to the mesh as it was bound, see [`umbrage_core::Rig::joints_at`]; a missing one does nothing. Costs a box a
-    /// joint; vertices follow on the GPU, see [`Casters::record_poses`]. Instances without a pose do not bend, and a matrix that is
-    /// not finite changes nothing, nor does the pose that it has already.
+    /// Bends an instance that has a [`umbrage_core::Pose`] (by its place in [`Scene::instances`]):
+    /// `joints` are what each of its joints does to the mesh as it was bound, see
+    /// [`umbrage_core::Rig::joints_at`]; a missing one does nothing. Costs a box a joint; vertices
+    /// follow on the GPU, see [`Casters::record_poses`]. Instances without a pose do not bend, and
+    /// a matrix that is not finite changes nothing, nor does the pose that it has already.
     pub fn set_pose(&mut self, instance: usize, joints: &[DAffine3]) {
         let (Some(mesh), Some(&place)) = (self.poses.mesh_of(instance), self.place_of.get(instance)) else { return };
         if !self.poses.set(mesh, joints) {
@@ -309,8 +316,9 @@ impl Casters {
         self.note_moved(place);
     }
 
-    /// Moves the vertices of all instances that [`Casters::set_pose`] bent since the last time, once for everybody who draws them:
-    /// to be called before the G-buffer is drawn and before techniques are recorded.
+    /// Moves the vertices of all instances that [`Casters::set_pose`] bent since the last time,
+    /// once for everybody who draws them: to be called before the G-buffer is drawn and before
+    /// techniques are recorded.
     pub fn record_poses(&mut self, passes: &mut Passes<'_>) {
         self.poses.record(passes, self.edges.get());
     }
@@ -393,7 +401,8 @@ impl Casters {
         self.poses.posed(mesh)
     }
 
-    /// Planes of the triangles of a mesh as it is posed, in the order of its [`umbrage_core::adjacency::Adjacency`].
+    /// Planes of the triangles of a mesh as it is posed, in the order of its
+    /// [`umbrage_core::adjacency::Adjacency`].
     pub(crate) fn planes<'a>(&'a self, mesh: u32, edges: &'a MeshEdges) -> &'a [Vec4] {
         self.poses.planes(mesh as usize, &edges.adjacency).unwrap_or(&edges.adjacency.planes)
     }

@@ -41,7 +41,8 @@ pub(super) struct Made {
     pub(super) bytes: u64,
 }
 
-/// What some drivers give a texture at most; where coarser levels would not fit, there is the finest alone.
+/// What some drivers give a texture at most; where coarser levels would not fit, there is the
+/// finest alone.
 const MOST_BYTES: u64 = 1 << 31;
 /// Texels of the coarsest mip level at least.
 const LEAST_SIZE: u32 = 4;

@@ -32,7 +32,8 @@ fn needs_of(source: &'static str) -> impl Iterator<Item = &'static str> {
     first.into_iter().flat_map(|list| list.split(',').map(str::trim))
 }
 
-/// The modules of a shader, each after those that it needs itself. Needs are looked for in `known`, from the front.
+/// The modules of a shader, each after those that it needs itself. Needs are looked for in `known`,
+/// from the front.
 pub(super) fn resolve(
     name: &'static str,
     source: &'static str,

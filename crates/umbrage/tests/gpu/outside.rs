@@ -1,4 +1,5 @@
-//! A filter from outside of the library: one shader and one declaration, then it looks up splits and warps like any other.
+//! A filter from outside of the library: one shader and one declaration, then it looks up splits
+//! and warps like any other.
 
 use crate::common::{gpu, scene};
 use umbrage::core::{Image, Scene};

@@ -1,5 +1,5 @@
-//! A technique from outside of the library whose stage draws a map of its own: it stores depth as a colour, and has to give what
-//! `shadow-map` gives.
+//! A technique from outside of the library whose stage draws a map of its own: it stores depth as a
+//! colour, and has to give what `shadow-map` gives.
 
 use crate::common::{gpu, renderer, scene, visibility};
 use umbrage::core::{Light, LightShape, Scene, glam::DVec3};
