@@ -3,7 +3,7 @@
 use anyhow::Result;
 use clap::Args;
 use std::path::PathBuf;
-use umbrage::Gpu;
+use umbrage::{Gpu, Registry};
 use umbrage_report::{Choice, Folder, Source};
 
 /// Which adapter to use.
@@ -43,8 +43,8 @@ pub struct What {
 
 impl What {
     /// The techniques with their settings.
-    pub fn choices(&self) -> Result<Vec<Choice>> {
-        let choices = Choice::list(&self.techniques, &self.set)?;
+    pub fn choices(&self, registry: &Registry) -> Result<Vec<Choice>> {
+        let choices = Choice::list(registry, &self.techniques, &self.set)?;
         choices.iter().for_each(print_note);
         Ok(choices.into_iter().map(|c| c.or_light_samples(self.light_samples)).collect())
     }
@@ -114,11 +114,6 @@ pub fn scenes(asked: &[String], light: Option<usize>) -> Result<Vec<(Source, Vec
         scenes.push((source, lights));
     }
     Ok(scenes)
-}
-
-/// The command line, for records; the program goes by its name alone.
-pub fn command_line() -> Vec<String> {
-    std::iter::once("umbrage".into()).chain(std::env::args().skip(1)).collect()
 }
 
 #[cfg(test)]

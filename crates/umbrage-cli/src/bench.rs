@@ -1,6 +1,7 @@
 //! `umbrage bench`: times.
 
 use crate::{
+    Context,
     args::{self, Adapter, Size},
     bars::Bars,
 };
@@ -64,8 +65,8 @@ pub struct Bench {
 
 impl Bench {
     /// Measures and prints.
-    pub fn run(self) -> Result<()> {
-        let choices = self.what.choices()?;
+    pub fn run(self, context: &Context<'_>) -> Result<()> {
+        let choices = self.what.choices(context.registry)?;
         let scenes = self.what.scenes()?;
         let gpu = self.adapter.gpu()?;
         let plan = Plan {
@@ -78,7 +79,7 @@ impl Bench {
             samples: self.samples,
             together: self.lights_together,
             overlay: self.overlay,
-            command: args::command_line(),
+            command: context.line.clone(),
         };
         let report = plan.run(&gpu, &Bars::default())?;
         let text = match (self.json, self.csv) {

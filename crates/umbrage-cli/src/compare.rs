@@ -1,6 +1,7 @@
 //! `umbrage compare`: techniques against the truth.
 
 use crate::{
+    Context,
     args::{self, Adapter, Size},
     bars::Bars,
 };
@@ -52,8 +53,8 @@ pub struct Compare {
 
 impl Compare {
     /// Compares, prints and writes.
-    pub fn run(self) -> Result<()> {
-        let choices = self.what.choices()?;
+    pub fn run(self, context: &Context<'_>) -> Result<()> {
+        let choices = self.what.choices(context.registry)?;
         let scenes = self.what.scenes()?;
         let gpu = self.adapter.gpu()?;
         let folder = Folder::check(&self.output)?;
@@ -65,7 +66,7 @@ impl Compare {
             reference: self.reference,
             truth_cache: args::truth_cache(self.truth_cache)?,
             frames: self.frames,
-            command: args::command_line(),
+            command: context.line.clone(),
         };
         let outcome = plan.run(&gpu, &Bars::default())?;
         outcome.write(&folder)?;

@@ -1,10 +1,11 @@
 //! `umbrage list`: what there is.
 
+use crate::Context;
 use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
 use std::io::{Write, stdout};
-use umbrage::{AdapterSummary, Gpu, Group, Param};
+use umbrage::{AdapterSummary, Gpu, Group, Param, Registry};
 use umbrage_core::scenes::SCENES;
 use umbrage_report::{RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced};
 
@@ -32,8 +33,8 @@ struct Entry {
 
 impl List {
     /// Prints the lists.
-    pub fn run(self) -> Result<()> {
-        let (entries, adapters) = (entries(), Gpu::adapters());
+    pub fn run(self, context: &Context<'_>) -> Result<()> {
+        let (entries, adapters) = (entries(context.registry), Gpu::adapters());
         let text = if self.json { as_json(&entries, &adapters) } else { as_text(&entries, &adapters) };
         stdout().write_all(text.as_bytes())?;
         Ok(())
@@ -41,7 +42,7 @@ impl List {
 }
 
 /// The registry, with the ray tracer at its head.
-fn entries() -> Vec<Entry> {
+fn entries(registry: &Registry) -> Vec<Entry> {
     let kinds = |kinds: umbrage_core::LightKinds| kinds.iter().map(|k| k.name()).collect();
     let ray_traced = Entry {
         id: RAY_TRACED,
@@ -51,7 +52,7 @@ fn entries() -> Vec<Entry> {
         params: RayTraced::params(),
         views: &[],
     };
-    let registered = umbrage::techniques().iter().map(|t| Entry {
+    let registered = registry.techniques().iter().map(|t| Entry {
         id: t.id,
         summary: t.summary,
         source: t.source,

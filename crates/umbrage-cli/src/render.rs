@@ -1,12 +1,14 @@
 //! `umbrage render`: one picture.
 
 use crate::{
+    Context,
     args::{self, Adapter, Size},
     bars::Bars,
 };
 use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;
+use umbrage::Registry;
 use umbrage_report::{Aov, Choice, LIGHT_SAMPLES, Method, Picture, RAY_TRACED, RayTraced, Shot, Source, check_file};
 
 /// Renders one picture of a scene with one technique
@@ -61,11 +63,11 @@ pub struct Render {
 
 impl Render {
     /// Takes the picture and writes it.
-    pub fn run(self) -> Result<()> {
+    pub fn run(self, context: &Context<'_>) -> Result<()> {
         let aov = Aov::from(self.aov.as_str());
         Picture::check_name(&aov, &self.output)?;
         check_file(&self.output)?;
-        let method = self.method()?;
+        let method = self.method(context.registry)?;
         if self.overlay.is_some() && (aov != Aov::Color || self.technique == RAY_TRACED) {
             bail!(
                 "--overlay is a way of shading: it goes with `--aov color` and a technique that knows it, such as `volume`"
@@ -87,20 +89,20 @@ impl Render {
         Ok(())
     }
 
-    fn method(&self) -> Result<Method> {
+    fn method(&self, registry: &Registry) -> Result<Method> {
         let mut set = self.set.clone();
         if self.technique == RAY_TRACED {
             if self.light_samples.is_some() {
                 bail!("--light-samples is for hard techniques; `{RAY_TRACED}` takes --samples");
             }
             set.extend(self.samples.map(|n| ("samples".into(), n.to_string())));
-            return Ok(Method::RayTraced { samples: RayTraced::read(&set)?.samples });
+            return Ok(Method::RayTraced { samples: RayTraced::read(registry, &set)?.samples });
         }
         if self.samples.is_some() {
             bail!("--samples is for `{RAY_TRACED}`; hard techniques take --light-samples");
         }
         set.extend(self.light_samples.map(|n| (LIGHT_SAMPLES.into(), n.to_string())));
-        let choice = Choice::new(&self.technique, &set)?;
+        let choice = Choice::new(registry, &self.technique, &set)?;
         args::print_note(&choice);
         Ok(Method::Technique(choice))
     }

@@ -1,6 +1,7 @@
 //! `umbrage sweep`: error against cost.
 
 use crate::{
+    Context,
     args::{self, Adapter, Size},
     bars::Bars,
 };
@@ -60,13 +61,14 @@ pub struct Sweep {
 
 impl Sweep {
     /// Sweeps, prints and writes.
-    pub fn run(self) -> Result<()> {
-        let choices = self.what.choices()?;
+    pub fn run(self, context: &Context<'_>) -> Result<()> {
+        let choices = self.what.choices(context.registry)?;
         let scenes = self.what.scenes()?;
         let gpu = self.adapter.gpu()?;
         let folder = Folder::check(&self.output)?;
         let plan = Plan {
             scenes,
+            registry: context.registry.clone(),
             choices,
             vary: self.vary,
             size: (self.size.width, self.size.height),
@@ -74,7 +76,7 @@ impl Sweep {
             reference: self.reference,
             truth_cache: args::truth_cache(self.truth_cache)?,
             frames: self.frames,
-            command: args::command_line(),
+            command: context.line.clone(),
         };
         let outcome = plan.run(&gpu, &Bars::default())?;
         outcome.write(&folder)?;

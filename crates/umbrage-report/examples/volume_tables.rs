@@ -155,7 +155,7 @@ impl Lights {
     fn choices(self) -> Result<Vec<Choice>, Box<dyn Error>> {
         let mut choices: Vec<Choice> = Vec::new();
         for way in TABLES.iter().filter(|t| t.lights == self).flat_map(|t| t.ways) {
-            let choice = Choice::parse(way.trim_end_matches(OVERLAY), &[])?;
+            let choice = Choice::parse(&umbrage::Registry::default(), way.trim_end_matches(OVERLAY), &[])?;
             if choices.iter().all(|c| c.label() != choice.label()) {
                 choices.push(choice);
             }
@@ -303,7 +303,7 @@ fn cell(light: &BenchLight, way: &str, first: &str) -> Result<String, Box<dyn Er
 fn result<'a>(light: &'a BenchLight, way: &str) -> Result<&'a BenchResult, Box<dyn Error>> {
     // The single-pass algorithm is no setting; the benchmark says so in its results.
     let (way, overlay) = way.strip_suffix(OVERLAY).map_or((way, false), |way| (way, true));
-    let choice = Choice::parse(way, &[])?;
+    let choice = Choice::parse(&umbrage::Registry::default(), way, &[])?;
     let mut settings = choice.changed().clone();
     settings.extend(overlay.then(|| ("overlay".into(), "on".into())));
     let found = light.results.iter().find(|r| r.technique == choice.info.id && r.settings == settings);

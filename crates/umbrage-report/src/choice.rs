@@ -25,9 +25,9 @@ impl RayTraced {
     ///
     /// # Errors
     /// Names that are not known, with the nearest one, and values out of range.
-    pub fn read(set: &[(String, String)]) -> Result<Self, Error> {
+    pub fn read(registry: &Registry, set: &[(String, String)]) -> Result<Self, Error> {
         let mut settings = Self::default();
-        umbrage::read_settings(&Registry::default(), RAY_TRACED, &mut settings, set)?;
+        umbrage::read_settings(registry, RAY_TRACED, &mut settings, set)?;
         Ok(settings)
     }
 }
@@ -46,28 +46,29 @@ pub struct Choice {
     pub light_samples: Option<u32>,
     /// What its user should know: the name that it has now, where it was called by an old one.
     pub note: Option<String>,
+    registry: Registry,
     changed: BTreeMap<String, String>,
 }
 
 impl Choice {
-    /// The technique `id` with the parameters `set`, in which [`LIGHT_SAMPLES`] may stand too.
+    /// The technique `id` of a registry with the parameters `set`, in which [`LIGHT_SAMPLES`] may stand too.
     ///
     /// # Errors
     /// Names that are not known, with the nearest one, and values out of range.
-    pub fn new(id: &str, set: &[(String, String)]) -> Result<Self, Error> {
+    pub fn new(registry: &Registry, id: &str, set: &[(String, String)]) -> Result<Self, Error> {
         if id == RAY_TRACED {
             let text = format!("`{RAY_TRACED}` is the reference of every comparison already; leave it out");
             return Err(Error::Name(text));
         }
         if let Some(renamed) = Renamed::of(id, set) {
-            return renamed.choice(set);
+            return renamed.choice(registry, set);
         }
-        let info = umbrage::find(id)?;
+        let info = registry.find(id)?;
         let (brute, set): (Vec<_>, Vec<_>) = set.iter().cloned().partition(|(name, _)| name == LIGHT_SAMPLES);
-        let light_samples = brute.last().map(|(_, value)| parse_light_samples(info, value)).transpose()?;
-        let settings = info.settings(&set)?;
+        let light_samples = brute.last().map(|(_, value)| parse_light_samples(registry, info, value)).transpose()?;
+        let settings = registry.settings(id, &set)?;
         let changed = settings.changed().map(|(name, value)| (name.to_string(), value.to_string())).collect();
-        Ok(Self { info, settings, light_samples, note: None, changed })
+        Ok(Self { info, settings, light_samples, note: None, registry: registry.clone(), changed })
     }
 
     /// Reads `id:name=value:name=value`; `set` holds what applies to the technique wherever it is named, as
@@ -75,7 +76,7 @@ impl Choice {
     ///
     /// # Errors
     /// As [`Choice::new`], and for a part without `=`.
-    pub fn parse(text: &str, set: &[(String, String, String)]) -> Result<Self, Error> {
+    pub fn parse(registry: &Registry, text: &str, set: &[(String, String, String)]) -> Result<Self, Error> {
         let mut parts = text.split(':');
         let id = parts.next().unwrap_or_default();
         let mut pairs: Vec<_> =
@@ -86,28 +87,28 @@ impl Choice {
             })?;
             pairs.push((pair.0.into(), pair.1.into()));
         }
-        Self::new(id, &pairs)
+        Self::new(registry, id, &pairs)
     }
 
     /// The choices that a list such as `all` or `shadow-map,pcf:kernel=7` makes.
     ///
     /// # Errors
     /// As [`Choice::parse`]; settings of `set` for a technique that is not in the list.
-    pub fn list(names: &[String], set: &[(String, String, String)]) -> Result<Vec<Self>, Error> {
+    pub fn list(registry: &Registry, names: &[String], set: &[(String, String, String)]) -> Result<Vec<Self>, Error> {
         let mut choices = Vec::new();
         for name in names {
             if name == "all" {
-                for info in umbrage::techniques() {
-                    choices.push(Self::parse(info.id, set)?);
+                for info in registry.techniques() {
+                    choices.push(Self::parse(registry, info.id, set)?);
                 }
             } else {
-                choices.push(Self::parse(name, set)?);
+                choices.push(Self::parse(registry, name, set)?);
             }
         }
         for (id, name, value) in set {
             let is_named = |name: &String| name.split(':').next() == Some(id);
             if !choices.iter().any(|c| c.info.id == id) && !names.iter().any(is_named) {
-                umbrage::find(id)?;
+                registry.find(id)?;
                 let text = format!("--set {id}.{name}={value}: `{id}` is not among the techniques asked for");
                 return Err(Error::Name(text));
             }
@@ -121,6 +122,11 @@ impl Choice {
             self.light_samples = self.light_samples.or(samples);
         }
         self
+    }
+
+    /// The registry that it is from: its filters are those that settings may name.
+    pub(crate) fn registry(&self) -> &Registry {
+        &self.registry
     }
 
     /// The parameters that are not at their default.
@@ -181,14 +187,14 @@ impl Renamed {
     }
 
     /// The same by its name of today. What has no effect on it is checked and left out.
-    fn choice(self, set: &[(String, String)]) -> Result<Choice, Error> {
+    fn choice(self, registry: &Registry, set: &[(String, String)]) -> Result<Choice, Error> {
         let Self(old) = self;
-        let (before, now) = (umbrage::find(old.technique)?, umbrage::find(old.to)?);
+        let (before, now) = (registry.find(old.technique)?, registry.find(old.to)?);
         let rest = set.iter().filter(|(name, _)| name != old.param).cloned();
         let (own, others): (Vec<_>, Vec<_>) =
             rest.partition(|(name, _)| name == LIGHT_SAMPLES || now.params().iter().any(|p| p.name == name));
-        before.settings(&others)?;
-        let mut choice = Choice::new(now.id, &own)?;
+        registry.settings(before.id, &others)?;
+        let mut choice = Choice::new(registry, now.id, &own)?;
         let name = format!("{}:{}={}", old.technique, old.param, old.value);
         let mut note = format!("`{name}` is the technique `{}` now; write `{}`", now.id, choice.label());
         if let Some((first, _)) = others.first() {
@@ -199,9 +205,9 @@ impl Renamed {
     }
 }
 
-fn parse_light_samples(info: &TechniqueInfo, value: &str) -> Result<u32, Error> {
+fn parse_light_samples(registry: &Registry, info: &TechniqueInfo, value: &str) -> Result<u32, Error> {
     if !info.hard {
-        let hard: Vec<&str> = umbrage::techniques().iter().filter(|t| t.hard).map(|t| t.id).collect();
+        let hard: Vec<&str> = registry.techniques().iter().filter(|t| t.hard).map(|t| t.id).collect();
         let text = format!("`{}` is not a hard technique; {LIGHT_SAMPLES} is for {}", info.id, hard.join(", "));
         return Err(Error::Name(text));
     }
@@ -213,33 +219,41 @@ fn parse_light_samples(info: &TechniqueInfo, value: &str) -> Result<u32, Error> 
 mod tests {
     use super::*;
 
+    fn parse(text: &str, set: &[(String, String, String)]) -> Result<Choice, Error> {
+        Choice::parse(&Registry::default(), text, set)
+    }
+
+    fn list(names: &[String], set: &[(String, String, String)]) -> Result<Vec<Choice>, Error> {
+        Choice::list(&Registry::default(), names, set)
+    }
+
     fn text(result: Result<Choice, Error>) -> String {
         result.map(|c| c.label()).unwrap_or_else(|e| e.to_string())
     }
 
     #[test]
     fn settings_are_read_and_written_alike() {
-        assert_eq!(text(Choice::parse("shadow-map:size=512", &[])), "shadow-map:size=512");
+        assert_eq!(text(parse("shadow-map:size=512", &[])), "shadow-map:size=512");
         let set = [("shadow-map".into(), "size".into(), "500".into())];
-        assert_eq!(text(Choice::parse("shadow-map:light-samples=16", &set)), "shadow-map:size=500:light-samples=16");
-        assert_eq!(text(Choice::parse("none", &set)), "none");
+        assert_eq!(text(parse("shadow-map:light-samples=16", &set)), "shadow-map:size=500:light-samples=16");
+        assert_eq!(text(parse("none", &set)), "none");
     }
 
     #[test]
     fn mistakes_are_named() {
-        assert!(text(Choice::parse("shadowmap", &[])).contains("did you mean `shadow-map`"));
-        assert!(text(Choice::parse("shadow-map:size", &[])).contains("name=value"));
-        assert!(text(Choice::parse("shadow-map:light-samples=0", &[])).contains("over 0"));
-        assert!(text(Choice::parse("none:light-samples=4", &[])).contains("not a hard technique"));
-        assert!(text(Choice::parse(RAY_TRACED, &[])).contains("already"));
+        assert!(text(parse("shadowmap", &[])).contains("did you mean `shadow-map`"));
+        assert!(text(parse("shadow-map:size", &[])).contains("name=value"));
+        assert!(text(parse("shadow-map:light-samples=0", &[])).contains("over 0"));
+        assert!(text(parse("none:light-samples=4", &[])).contains("not a hard technique"));
+        assert!(text(parse(RAY_TRACED, &[])).contains("already"));
         let unused = [("pcf".into(), "size".into(), "512".into())];
-        let list = Choice::list(&["none".into()], &unused).map(|l| l.len()).unwrap_err().to_string();
+        let list = list(&["none".into()], &unused).map(|l| l.len()).unwrap_err().to_string();
         assert!(list.contains("not among"), "{list}");
     }
 
     #[test]
     fn light_samples_for_all_go_to_hard_techniques_that_have_none() {
-        let label = |name: &str| Choice::parse(name, &[]).unwrap().or_light_samples(Some(9)).label();
+        let label = |name: &str| parse(name, &[]).unwrap().or_light_samples(Some(9)).label();
         assert_eq!(label("shadow-map"), "shadow-map:light-samples=9");
         assert_eq!(label("shadow-map:light-samples=4"), "shadow-map:light-samples=4");
         assert_eq!(label("none"), "none");
@@ -247,16 +261,16 @@ mod tests {
 
     #[test]
     fn old_names_are_understood_and_lead_to_new_ones() {
-        let old = Choice::parse("wedges:samples=64:combine=bitmask", &[]).unwrap();
+        let old = parse("wedges:samples=64:combine=bitmask", &[]).unwrap();
         assert_eq!((old.info.id, old.label().as_str()), ("light-mask", "light-mask:samples=64"));
         assert!(old.note.is_some_and(|note| note.contains("write `light-mask:samples=64`")));
         let set = |value: &str| [("wedges".to_string(), "combine".to_string(), value.to_string())];
-        let list = |value| Choice::list(&["wedges".into()], &set(value)).unwrap().remove(0);
+        let list = |value| Choice::list(&Registry::default(), &["wedges".into()], &set(value)).unwrap().remove(0);
         assert_eq!((list("bitmask").info.id, list("max").info.id), ("light-mask", "wedges"));
         assert_eq!(list("max").note, None);
-        let scaled = Choice::parse("wedges:combine=bitmask:scale=1/2", &[]).unwrap();
+        let scaled = parse("wedges:combine=bitmask:scale=1/2", &[]).unwrap();
         assert!(scaled.note.is_some_and(|note| note.contains("without `scale`")));
-        assert!(text(Choice::parse("wedges:combine=bitmask:scale=7", &[])).contains("scale"));
+        assert!(text(parse("wedges:combine=bitmask:scale=7", &[])).contains("scale"));
         for old in umbrage::RENAMED {
             let info = umbrage::find(old.technique).unwrap();
             assert!(info.settings(&[(old.param.into(), old.value.into())]).is_err(), "{old:?} is both");
@@ -265,7 +279,7 @@ mod tests {
 
     #[test]
     fn all_is_the_registry() {
-        let all = Choice::list(&["all".into()], &[]).unwrap();
+        let all = list(&["all".into()], &[]).unwrap();
         assert_eq!(all.len(), umbrage::techniques().len());
     }
 }

@@ -21,5 +21,5 @@ pub(crate) fn changed(base: &Choice, set: &[(String, String)]) -> Result<Choice,
     let own = base.changed().iter().map(|(name, value)| (name.clone(), value.clone()));
     let points = base.light_samples.map(|n| (LIGHT_SAMPLES.to_string(), n.to_string()));
     let all: Vec<_> = own.chain(points).chain(set.iter().cloned()).collect();
-    Choice::new(base.info.id, &all)
+    Choice::new(base.registry(), base.info.id, &all)
 }

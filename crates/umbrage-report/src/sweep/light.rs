@@ -184,7 +184,7 @@ mod tests {
     }
 
     fn result(label: &str, outcome: Result<f64, Error>) -> (String, SweepResult) {
-        let mut result = SweepResult::of(&Choice::parse(label, &[]).unwrap());
+        let mut result = SweepResult::of(&Choice::parse(&umbrage::Registry::default(), label, &[]).unwrap());
         let scores = fixture().scenes.remove(0).lights.remove(0).results.remove(0).scores.unwrap();
         (result.errors, result.scores) = (errors(&scores), Some(scores));
         let over_floor_ms = outcome.as_ref().ok().map(|ms| ms - 1.0);

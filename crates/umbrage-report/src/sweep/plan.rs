@@ -9,6 +9,7 @@ use crate::{
         vary::Vary,
     },
 };
+use umbrage::Registry;
 
 /// Settings, each once, and the curves through them.
 #[derive(Clone, Debug, Default)]
@@ -62,9 +63,9 @@ impl Plan {
 ///
 /// # Errors
 /// A technique that is not known, with the nearest one, or not among the bases.
-pub(crate) fn check_vary(bases: &[Choice], vary: &[Vary]) -> Result<(), Error> {
+pub(crate) fn check_vary(registry: &Registry, bases: &[Choice], vary: &[Vary]) -> Result<(), Error> {
     for Vary { technique, .. } in vary {
-        umbrage::find(technique)?;
+        registry.find(technique)?;
         if !bases.iter().any(|base| base.info.id == technique) {
             return Err(Error::Name(format!(
                 "--vary {technique}: `{technique}` is not among the techniques asked for"
@@ -96,9 +97,9 @@ mod tests {
     use super::*;
 
     fn plan(bases: &str, vary: &[&str]) -> Result<Plan, Error> {
-        let bases = Choice::list(&bases.split(' ').map(String::from).collect::<Vec<_>>(), &[])?;
+        let bases = Choice::list(&Registry::default(), &bases.split(' ').map(String::from).collect::<Vec<_>>(), &[])?;
         let vary = vary.iter().map(|v| Vary::parse(v)).collect::<Result<Vec<_>, _>>()?;
-        check_vary(&bases, &vary)?;
+        check_vary(&Registry::default(), &bases, &vary)?;
         Plan::new(&bases, &vary, false)
     }
 
@@ -131,7 +132,7 @@ mod tests {
 
     #[test]
     fn what_nobody_asked_for_is_marked() {
-        let bases = [Choice::new("shadow-map", &[]).unwrap()];
+        let bases = [Choice::new(&Registry::default(), "shadow-map", &[]).unwrap()];
         let by_rule = |vary: &[Vary]| -> Vec<bool> {
             Plan::new(&bases, vary, false).unwrap().settings.iter().map(|setting| setting.by_rule).collect()
         };

@@ -69,7 +69,7 @@ fn lines(base: &Choice, soft: bool) -> Vec<Line> {
             Value::Float(v) => Some(v),
             Value::Choice(_) | Value::Switch(_) | Value::Filter(_) => None,
         };
-        Line { name: param.name, number, values: values(&param.kind, value) }
+        Line { name: param.name, number, values: values(base.registry(), &param.kind, value) }
     });
     brute.into_iter().chain(own).filter(|line| !line.values.is_empty()).collect()
 }
@@ -84,7 +84,7 @@ fn counts(lines: &[Line]) -> Vec<usize> {
 }
 
 /// What else a parameter may be, most telling first.
-fn values(kind: &ParamKind, base: Value) -> Vec<String> {
+fn values(registry: &Registry, kind: &ParamKind, base: Value) -> Vec<String> {
     let tried: Vec<String> = match (*kind, base) {
         (ParamKind::Int { min, max, .. }, Value::Int(v)) => {
             FACTORS.map(|f| Value::Int(((v as f64 * f).round() as i64).clamp(min, max)).to_string()).to_vec()
@@ -93,7 +93,7 @@ fn values(kind: &ParamKind, base: Value) -> Vec<String> {
             FACTORS.map(|f| Value::Float(rounded(v * f).clamp(min, max)).to_string()).to_vec()
         }
         (ParamKind::Choice { .. } | ParamKind::Filter { .. }, _) => {
-            kind.words(&Registry::default()).into_iter().map(String::from).collect()
+            kind.words(registry).into_iter().map(String::from).collect()
         }
         (_, Value::Switch(on)) => vec![Value::Switch(!on).to_string()],
         _ => Vec::new(),
@@ -117,12 +117,13 @@ mod tests {
 
     #[test]
     fn numbers_take_a_geometric_series_within_their_range() {
-        let int = |min, max, v| values(&ParamKind::Int { min, max, default: v }, Value::Int(v));
+        let int = |min, max, v| values(&Registry::default(), &ParamKind::Int { min, max, default: v }, Value::Int(v));
         assert_eq!(int(1, 16384, 1024), ["2048", "512", "4096", "256"]);
         assert_eq!(int(1, 1500, 1024), ["1500", "512", "256"]);
         assert_eq!(int(1, 8, 1), ["2", "4"]);
         assert_eq!(int(0, 1_000_000, 0), [""; 0]);
-        let float = |min, max, v| values(&ParamKind::Float { min, max, default: v }, Value::Float(v));
+        let float =
+            |min, max, v| values(&Registry::default(), &ParamKind::Float { min, max, default: v }, Value::Float(v));
         assert_eq!(float(0.0, 64.0, 2.5), ["5", "1.25", "10", "0.625"]);
         assert_eq!(float(0.0, 1.0, 1.0), ["0.5", "0.25"]);
         assert_eq!(float(0.0, 1.0, 0.0), [""; 0]);
@@ -131,8 +132,8 @@ mod tests {
     #[test]
     fn words_take_each_value_and_switches_the_other() {
         let kind = ParamKind::Choice { values: &["a", "b", "c"] };
-        assert_eq!(values(&kind, Value::Choice("b")), ["a", "c"]);
-        assert_eq!(values(&ParamKind::Switch { default: true }, Value::Switch(true)), ["off"]);
+        assert_eq!(values(&Registry::default(), &kind, Value::Choice("b")), ["a", "c"]);
+        assert_eq!(values(&Registry::default(), &ParamKind::Switch { default: true }, Value::Switch(true)), ["off"]);
     }
 
     #[test]
@@ -146,7 +147,7 @@ mod tests {
     #[test]
     fn every_technique_is_varied_one_parameter_at_a_time() {
         for info in umbrage::techniques() {
-            let base = Choice::new(info.id, &[]).unwrap();
+            let base = Choice::new(&Registry::default(), info.id, &[]).unwrap();
             for soft in [false, true] {
                 let (choices, curves) = around(&base, soft).unwrap();
                 assert!(choices.len() <= MOST, "{} has {}", info.id, choices.len());
@@ -169,11 +170,11 @@ mod tests {
         let number = |p: &&umbrage::Param| matches!(p.kind, ParamKind::Int { default, .. } if default > 3);
         let with_number = umbrage::techniques().iter().find_map(|t| Some((t, t.params().iter().find(number)?)));
         let (info, param) = with_number.expect("a technique with a number");
-        let base = Choice::new(info.id, &[(param.name.into(), "3".into())]).unwrap();
+        let base = Choice::new(&Registry::default(), info.id, &[(param.name.into(), "3".into())]).unwrap();
         let (held, _) = around(&base, false).unwrap();
         assert!(held.iter().all(|c| c.changed()[param.name] == "3"), "{held:?}");
 
-        let (_, curves) = around(&Choice::new(info.id, &[]).unwrap(), false).unwrap();
+        let (_, curves) = around(&Choice::new(&Registry::default(), info.id, &[]).unwrap(), false).unwrap();
         let curve = curves.iter().find(|c| c.parameter == param.name).expect("a curve of the number");
         let default = param.kind.default().to_string();
         let value = |label: &String| label.rsplit_once('=').map_or(&*default, |(_, v)| v).parse::<f64>().unwrap();

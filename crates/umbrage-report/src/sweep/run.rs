@@ -19,13 +19,15 @@ use crate::{
     truth::{Tracing, size_of},
 };
 use std::path::PathBuf;
-use umbrage::Gpu;
+use umbrage::{Gpu, Registry};
 
 /// What to sweep, and how.
 #[derive(Clone, Debug)]
 pub struct Sweep {
     /// The scenes, each with the lights to look at.
     pub scenes: Vec<(Source, Vec<usize>)>,
+    /// All techniques that there are.
+    pub registry: Registry,
     /// The techniques, as sweeps start.
     pub choices: Vec<Choice>,
     /// Sweeps of some of them; the others are varied in one parameter at a time.
@@ -65,7 +67,7 @@ impl Sweep {
     /// Everything that can be known to fail before the long work.
     fn check(&self, gpu: &Gpu) -> Result<(), Error> {
         gpu.check_size("a picture", self.size.0, self.size.1)?;
-        check_vary(&self.choices, &self.vary)?;
+        check_vary(&self.registry, &self.choices, &self.vary)?;
         Plan::new(&self.choices, &self.vary, false)?;
         check_choices(&self.choices, gpu)?;
         for (source, lights) in &self.scenes {

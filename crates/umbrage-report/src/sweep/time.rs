@@ -228,7 +228,8 @@ mod tests {
     #[test]
     fn the_bare_minimum_has_the_usual_size_or_the_nearest() {
         let size = |labels: &[&str]| {
-            let choices: Vec<_> = labels.iter().map(|label| Choice::parse(label, &[]).unwrap()).collect();
+            let choices: Vec<_> =
+                labels.iter().map(|label| Choice::parse(&umbrage::Registry::default(), label, &[]).unwrap()).collect();
             bare_size(choices.iter())
         };
         assert_eq!(size(&["shadow-map:size=500", "pcf:size=2000", "pcf:size=64"]), 2000);
