@@ -104,7 +104,8 @@ pub fn triple(text: &str) -> Result<(String, String, String), String> {
     Ok((technique.into(), name.into(), value))
 }
 
-/// Opens scenes, each with the lights to work on; what the loader has to say goes to the standard error.
+/// Opens scenes, each with the lights to work on; what the loader has to say goes to the standard
+/// error.
 pub fn scenes(asked: &[String], light: Option<usize>) -> Result<Vec<(Source, Vec<usize>)>> {
     let mut scenes = Vec::new();
     for name in asked {

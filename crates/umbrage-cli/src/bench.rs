@@ -10,7 +10,8 @@ use clap::Args;
 use std::io::{Write, stdout};
 use umbrage_report::{Bench as Plan, CameraPath, Moving};
 
-/// Measures techniques: GPU time of each pass, frame, draws, triangles, memory, against the floor of the same run
+/// Measures techniques: GPU time of each pass, frame, draws, triangles, memory, against the floor
+/// of the same run
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -44,7 +45,8 @@ pub struct Bench {
     /// Rays for each point of the reference that flicker is set against
     #[arg(long, value_name = "N", default_value_t = 64, requires = "path", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     samples: u32,
-    /// All lights in the same frame, each with a technique of its own, instead of one light at a time
+    /// All lights in the same frame, each with a technique of its own, instead of one light at a
+    /// time
     #[arg(long)]
     lights_together: bool,
     /// Measure the wrong single-pass algorithm, too: one overlay for the shadows of all lights

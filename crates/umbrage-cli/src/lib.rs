@@ -1,4 +1,5 @@
-//! The `umbrage` command: one file a subcommand, no algorithm. As a library it is the command of whoever has techniques of their own:
+//! The `umbrage` command: one file a subcommand, no algorithm. As a library it is the command of
+//! whoever has techniques of their own:
 //!
 //! ```no_run
 //! let registry = umbrage::Registry::default();

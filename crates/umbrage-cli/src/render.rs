@@ -47,8 +47,8 @@ pub struct Render {
     /// Average a hard technique over so many points of the light
     #[arg(long, value_name = "N")]
     light_samples: Option<u32>,
-    /// Shade all lights at once and darken by this share, 0 to 1, whatever is in any shadow: the wrong single-pass
-    /// algorithm, to compare with
+    /// Shade all lights at once and darken by this share, 0 to 1, whatever is in any shadow: the
+    /// wrong single-pass algorithm, to compare with
     #[arg(long, value_name = "SHARE", value_parser = share)]
     overlay: Option<f32>,
     /// color, visibility, scored, depth, normal, or a view into the technique, such as map-0

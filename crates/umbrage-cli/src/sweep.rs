@@ -13,7 +13,8 @@ use std::{
 };
 use umbrage_report::{Folder, Sweep as Plan, Vary};
 
-/// Sets techniques under many settings against each other: the least error at equal cost, the least cost at equal error
+/// Sets techniques under many settings against each other: the least error at equal cost, the least
+/// cost at equal error
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -31,7 +32,8 @@ them is plotted, too. DIR gets sweep.json, index.html (open it in a browser), pl
 pub struct Sweep {
     #[command(flatten)]
     what: args::What,
-    /// All combinations of these values in place of the built-in sweep of the technique; may be repeated
+    /// All combinations of these values in place of the built-in sweep of the technique; may be
+    /// repeated
     #[arg(long, value_name = "TECHNIQUE:NAME=VALUE|FROM..TO,…", value_parser = Vary::parse)]
     vary: Vec<Vary>,
     /// Rays for each pixel of the reference
@@ -46,7 +48,8 @@ pub struct Sweep {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = args::size)]
     size: Size,
-    /// Frames of each setting that times are medians of; fewer where they take more than 4 s together
+    /// Frames of each setting that times are medians of; fewer where they take more than 4 s
+    /// together
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: u32,
     /// Folder to write to

@@ -157,8 +157,8 @@ impl Cell<'_> {
         Ok(heat(&grey(produced), &grey(reference), mask))
     }
 
-    /// The record of the truth itself, with the scene shaded under it. Where the GPU fails, that picture is left out:
-    /// the techniques' own records say why.
+    /// The record of the truth itself, with the scene shaded under it. Where the GPU fails, that
+    /// picture is left out: the techniques' own records say why.
     pub(crate) fn reference(&self, place: &str, pictures: &mut Pictures) -> Result<ReferenceRecord, Error> {
         let Truth { visibility, mask, hard, source, samples, seconds, .. } = self.truth;
         let mut shown = BTreeMap::new();

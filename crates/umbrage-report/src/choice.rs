@@ -51,7 +51,8 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// The technique `id` of a registry with the parameters `set`, in which [`LIGHT_SAMPLES`] may stand too.
+    /// The technique `id` of a registry with the parameters `set`, in which [`LIGHT_SAMPLES`] may
+    /// stand too.
     ///
     /// # Errors
     /// Names that are not known, with the nearest one, and values out of range.
@@ -71,8 +72,8 @@ impl Choice {
         Ok(Self { info, settings, light_samples, note: None, registry: registry.clone(), changed })
     }
 
-    /// Reads `id:name=value:name=value`; `set` holds what applies to the technique wherever it is named, as
-    /// `(id, name, value)`.
+    /// Reads `id:name=value:name=value`; `set` holds what applies to the technique wherever it is
+    /// named, as `(id, name, value)`.
     ///
     /// # Errors
     /// As [`Choice::new`], and for a part without `=`.
@@ -116,7 +117,8 @@ impl Choice {
         Ok(choices)
     }
 
-    /// Averages a hard technique over `samples` points of the light, unless it says itself over how many.
+    /// Averages a hard technique over `samples` points of the light, unless it says itself over how
+    /// many.
     pub fn or_light_samples(mut self, samples: Option<u32>) -> Self {
         if self.info.hard {
             self.light_samples = self.light_samples.or(samples);
@@ -134,7 +136,8 @@ impl Choice {
         &self.changed
     }
 
-    /// The value of a parameter, [`LIGHT_SAMPLES`] among them; `None` where it is a word, or there is none of the name.
+    /// The value of a parameter, [`LIGHT_SAMPLES`] among them; `None` where it is a word, or there
+    /// is none of the name.
     pub(crate) fn number(&self, name: &str) -> Option<f64> {
         if name == LIGHT_SAMPLES {
             return self.light_samples.map(f64::from);

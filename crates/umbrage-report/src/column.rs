@@ -12,8 +12,8 @@ pub struct Column {
     pub help: &'static str,
     /// Where it is in a result of `report.json`.
     pub path: [&'static str; 2],
-    /// `less` or `more` is better, and the best is marked; null for halves of an error and for costs, where doing nothing
-    /// wins.
+    /// `less` or `more` is better, and the best is marked; null for halves of an error and for
+    /// costs, where doing nothing wins.
     pub better: Option<&'static str>,
     /// What one unit of the heading is in units of the data.
     pub scale: f64,

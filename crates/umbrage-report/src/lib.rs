@@ -1,9 +1,9 @@
 //! Runs scenes × techniques × lights against the ground truth and records what came out.
 //!
-//! [`Compare`] gives errors, times, memory and pictures of every technique as a [`Report`], written as `report.json`
-//! and as one self-contained page; [`Bench`] gives times alone, set against the floor of the same run; [`Sweep`] puts both
-//! together over many settings and asks what is best at a cost or an error. All walk the registry of `umbrage`: a new
-//! technique needs no line here.
+//! [`Compare`] gives errors, times, memory and pictures of every technique as a [`Report`], written
+//! as `report.json` and as one self-contained page; [`Bench`] gives times alone, set against the
+//! floor of the same run; [`Sweep`] puts both together over many settings and asks what is best at
+//! a cost or an error. All walk the registry of `umbrage`: a new technique needs no line here.
 
 mod bench;
 mod cell;

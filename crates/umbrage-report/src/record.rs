@@ -66,7 +66,8 @@ pub struct ReferenceRecord {
     /// Seconds that tracing it took.
     #[serde(serialize_with = "six")]
     pub seconds: f64,
-    /// Pixels that count: receiving surfaces that face the light, without those beside depth discontinuities.
+    /// Pixels that count: receiving surfaces that face the light, without those beside depth
+    /// discontinuities.
     pub scored_pixels: usize,
     /// Mean absolute error of the perfect hard shadow, the unit of `vs_hard`; null for hard lights.
     #[serde(serialize_with = "maybe_six")]
@@ -97,9 +98,11 @@ pub struct ResultRecord {
     pub radiance: Option<RadianceRecord>,
     /// Costs; null unless `ok`.
     pub cost: Option<CostRecord>,
-    /// Size of the maps' texels on the screen over the scored pixels; null without maps, and unless `ok`.
+    /// Size of the maps' texels on the screen over the scored pixels; null without maps, and unless
+    /// `ok`.
     pub aliasing: Option<AliasingRecord>,
-    /// Pictures by kind, relative to the report: `color`, `visibility`, `error`, and `aliasing` for techniques with maps.
+    /// Pictures by kind, relative to the report: `color`, `visibility`, `error`, and `aliasing` for
+    /// techniques with maps.
     pub pictures: BTreeMap<&'static str, String>,
 }
 
@@ -163,7 +166,8 @@ pub struct ScoresRecord {
     /// Share of the error of a perfect hard shadow; null for hard lights.
     #[serde(serialize_with = "maybe_six")]
     pub vs_hard: Option<f64>,
-    /// How many times as far off edges are around borders between maps, see [`umbrage_metrics::seam`]; null without borders.
+    /// How many times as far off edges are around borders between maps, see
+    /// [`umbrage_metrics::seam`]; null without borders.
     #[serde(serialize_with = "maybe_six")]
     pub seam: Option<f64>,
     /// Pixels compared.

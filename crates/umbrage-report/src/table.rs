@@ -56,7 +56,8 @@ fn light_table(light: &LightRecord) -> Table {
     table
 }
 
-/// An empty table with a line under its heading; all columns but the first are aligned to the right.
+/// An empty table with a line under its heading; all columns but the first are aligned to the
+/// right.
 pub(crate) fn plain<'a>(heading: impl Iterator<Item = &'a str>) -> Table {
     let mut table = Table::new();
     let style = NOTHING.header_separator(LineStyle::none().fill('─').junction('─'));

@@ -1,4 +1,5 @@
-//! The reference pictures of a scene: traced, kept from an earlier run, or read from a folder of stored ones.
+//! The reference pictures of a scene: traced, kept from an earlier run, or read from a folder of
+//! stored ones.
 
 use crate::{error::Error, progress::Progress, source::Source};
 use std::{path::Path, time::Instant};
@@ -50,7 +51,8 @@ impl Tracing {
         self
     }
 
-    /// The truth about light number `index`: stored in `folder`, else traced with `samples` rays for each pixel.
+    /// The truth about light number `index`: stored in `folder`, else traced with `samples` rays
+    /// for each pixel.
     ///
     /// # Errors
     /// As [`Tracing::stored`].
@@ -93,8 +95,8 @@ impl Tracing {
         }
     }
 
-    /// Reads the truth about light number `index` from `folder`, where `NAME.lightK.visibility.png` and
-    /// `NAME.lightK.mask.png` are.
+    /// Reads the truth about light number `index` from `folder`, where `NAME.lightK.visibility.png`
+    /// and `NAME.lightK.mask.png` are.
     ///
     /// # Errors
     /// Pictures that are missing, damaged or of another size.
@@ -135,7 +137,8 @@ impl Tracing {
         self.visibility(light, textures, 1, progress).visibility
     }
 
-    /// What was kept, or else is traced and kept. Neither a damaged file nor a full disk is worth ending a run.
+    /// What was kept, or else is traced and kept. Neither a damaged file nor a full disk is worth
+    /// ending a run.
     fn traced(&self, light: &Light, textures: &[Texture], samples: u32, progress: &dyn Progress) -> Traced {
         let options = Options { samples, ..Options::default() };
         let size = self.geometry.depth.size();

@@ -1,5 +1,5 @@
-//! What fails in one technique ends its own cell and nothing else. Needs a graphics adapter. The techniques that fail are those of a
-//! host, added to the registry.
+//! What fails in one technique ends its own cell and nothing else. Needs a graphics adapter. The
+//! techniques that fail are those of a host, added to the registry.
 
 use umbrage::{
     Configure, Error, Family, Gpu, Inside, Passes, Registry, SettingsOf, Stats, Technique, TechniqueInfo, View,
@@ -44,6 +44,7 @@ macro_rules! broken {
             filter: None,
             lights: LightKinds::ALL,
             features: wgpu::Features::empty(),
+            limits: |_| (),
             hard: false,
             settings: SettingsOf::new::<$settings>(),
             views: &[],

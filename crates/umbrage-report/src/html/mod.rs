@@ -58,7 +58,8 @@ struct SweepData<'a> {
     report: &'a SweepReport,
     pictures: BTreeMap<&'a str, String>,
     measures: Vec<Explained>,
-    /// By scene, light and measure: `0/1/mae`; those along a parameter have its name, too: `0/1/mae/lambda`.
+    /// By scene, light and measure: `0/1/mae`; those along a parameter have its name, too:
+    /// `0/1/mae/lambda`.
     plots: BTreeMap<String, &'a str>,
 }
 
@@ -104,7 +105,8 @@ fn filled(frame: &Frame, data: &impl Serialize) -> String {
         .replace("{{data}}", &json_in_html(data))
 }
 
-/// JSON that can stand within a `<script>`: the only thing to fear there is a `<`, which JSON has in strings only.
+/// JSON that can stand within a `<script>`: the only thing to fear there is a `<`, which JSON has
+/// in strings only.
 fn json_in_html(data: &impl Serialize) -> String {
     // Plain data with text keys always has a JSON form.
     serde_json::to_string(data).unwrap_or_else(|_| "null".into()).replace('<', "\\u003c")

@@ -1,4 +1,5 @@
-//! A light under all settings. Each is made once: it is scored, then takes turns with others until its time is known.
+//! A light under all settings. Each is made once: it is scored, then takes turns with others until
+//! its time is known.
 
 use crate::{
     cell::{Cell, Found, Scored},

@@ -1,11 +1,13 @@
 //! What is tried where nothing is asked for: a rule that knows parameters, not techniques.
 //!
-//! Around its base a technique is changed in one parameter at a time. Numbers take a geometric series, ×2, ×½, ×4, ×¼ of
-//! the base within their range; a base of 0 has no scale to take one from. Words take each value, switches the other one.
-//! What was set away from its default stays. A hard technique is averaged over points of a soft light, too.
+//! Around its base a technique is changed in one parameter at a time. Numbers take a geometric
+//! series, ×2, ×½, ×4, ×¼ of the base within their range; a base of 0 has no scale to take one
+//! from. Words take each value, switches the other one. What was set away from its default stays. A
+//! hard technique is averaged over points of a soft light, too.
 //!
-//! There are at most [`MOST`] settings a technique. Parameters count in the order of their declaration: the values of each come in pairs,
-//! and a parameter gets its second pair when the one two places after it gets its first.
+//! There are at most [`MOST`] settings a technique. Parameters count in the order of their
+//! declaration: the values of each come in pairs, and a parameter gets its second pair when the one
+//! two places after it gets its first.
 
 use crate::{
     choice::{Choice, LIGHT_SAMPLES},

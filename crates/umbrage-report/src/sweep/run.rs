@@ -47,7 +47,8 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Runs all of it. What a technique can't do and what goes wrong in it is recorded in its place.
+    /// Runs all of it. What a technique can't do and what goes wrong in it is recorded in its
+    /// place.
     ///
     /// # Errors
     /// What stops everything: sizes beyond the adapter's limit, settings that can't be, references that can't be read.

@@ -1,5 +1,5 @@
-//! Times of many settings on one light: as many as fit into memory take turns frame by frame, so that a drift of the machine
-//! hits all of them alike.
+//! Times of many settings on one light: as many as fit into memory take turns frame by frame, so
+//! that a drift of the machine hits all of them alike.
 
 use crate::{
     bench::{baseline::Maps, record::BenchCost},
@@ -14,7 +14,8 @@ use crate::{
 use umbrage::{Gpu, Stats, baseline};
 use umbrage_core::Camera;
 
-/// GPU memory of the settings that take turns: little enough for any adapter. One that needs more is measured alone with the yardsticks.
+/// GPU memory of the settings that take turns: little enough for any adapter. One that needs more
+/// is measured alone with the yardsticks.
 const BATCH_BYTES: u64 = 1 << 29;
 
 /// The pipelines of a setting, roughly.
@@ -131,7 +132,8 @@ impl Runner {
         Self { actor: Ok(actor), frames: Frames::default(), stats: Stats::default(), counts: Vec::new() }
     }
 
-    /// A frame that does all of the work, unless its frames have taken the time that a setting may take.
+    /// A frame that does all of the work, unless its frames have taken the time that a setting may
+    /// take.
     fn turn(&mut self, stage: &mut Stage<'_>, light: usize, camera: &Camera) {
         if self.frames.spent() >= TIME_LIMIT {
             return;

@@ -1,10 +1,15 @@
 //! What the tests with a GPU share.
 
-use std::path::PathBuf;
+use std::{
+    collections::HashMap,
+    path::{Path, PathBuf},
+    sync::{Arc, LazyLock, Mutex},
+    time::Instant,
+};
 use umbrage::core::{Image, Scene};
 use umbrage::{Gpu, find};
 use umbrage_metrics::{Comparison, Scores, discontinuities, map_reach, score};
-use umbrage_reference::{Geometry, Options, Tracer, Truth};
+use umbrage_reference::{Geometry, Kept, Key, Options, SceneKey, Traced, Tracer, Truth};
 use umbrage_renderer::{LightPass, Renderer};
 
 /// The best adapter. Without one these tests fail and say how to get one.
@@ -52,11 +57,9 @@ pub fn against_truth(
 /// The same for a renderer at hand that shows the light, for what it draws now.
 pub fn score_frame(renderer: &mut Renderer, scene: &Scene, light: usize, size: (u32, u32), samples: u32) -> Scores {
     let produced = visibility(renderer, scene);
-    let tracer = Tracer::new(scene);
-    let geometry = tracer.geometry(&scene.camera, size.0, size.1);
-    let options = Options { samples, ..Options::default() };
-    let truth = tracer.visibility(&geometry, &scene.lights[light], &scene.textures, &options, &|_, _| ());
-    let mask = mask(&truth, &geometry, 60.0);
+    let traced = traced(scene, light, size, samples);
+    let (geometry, truth) = &*traced;
+    let mask = mask(truth, geometry, 60.0);
     let technique = renderer.technique(0).unwrap();
     let reach = map_reach(
         technique.inside().light_views(),
@@ -67,6 +70,30 @@ pub fn score_frame(renderer: &mut Renderer, scene: &Scene, light: usize, size: (
     );
     let reference = &truth.visibility;
     score(&Comparison { produced: &produced, reference, mask: &mask, hard: None, reach: Some(&reach) }).unwrap()
+}
+
+/// What is seen and the truth about a light: traced once by all tests of this process, and its rays once by all processes.
+fn traced(scene: &Scene, light: usize, size: (u32, u32), samples: u32) -> Arc<(Geometry, Truth)> {
+    static TRACED: LazyLock<Mutex<HashMap<Key, Arc<(Geometry, Truth)>>>> = LazyLock::new(Mutex::default);
+    let options = Options { samples, ..Options::default() };
+    let key = SceneKey::new(scene).of(&scene.lights[light], size, &options);
+    // Two tests that want the same at once trace it twice: none waits for what others trace.
+    if let Some(found) = TRACED.lock().unwrap().get(&key) {
+        return found.clone();
+    }
+    let tracer = Tracer::new(scene);
+    let geometry = tracer.geometry(&scene.camera, size.0, size.1);
+    let kept = Kept::new(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("truth"));
+    let truth = kept.read(key, size).ok().flatten().map(|kept| kept.truth).unwrap_or_else(|| {
+        let start = Instant::now();
+        let truth = tracer.visibility(&geometry, &scene.lights[light], &scene.textures, &options, &|_, _| ());
+        let seconds = start.elapsed().as_secs_f64();
+        kept.write(key, &Traced { truth: truth.clone(), seconds }).unwrap();
+        truth
+    });
+    let found = Arc::new((geometry, truth));
+    TRACED.lock().unwrap().insert(key, found.clone());
+    found
 }
 
 /// The pixels to compare: those that are scored, not beside the edge of a surface and not `far`
