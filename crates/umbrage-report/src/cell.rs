@@ -288,7 +288,7 @@ mod tests {
         let tracing = Tracing::new(&source, 48, 36);
         let mut truth = tracing.truth(None, &source, 0, 1, &Silent).unwrap();
         truth.radiance = Some(Image::filled(48, 36, [0.5; 3]));
-        let choice = Choice::parse("none", &[]).unwrap();
+        let choice = Choice::parse(&umbrage::Registry::default(), "none", &[]).unwrap();
         let run = |truth: &Truth, technique: Box<dyn Technique>| {
             let cell = Cell { gpu: &gpu, source: &source, light: 0, truth, tracing: &tracing };
             let mut stage = Stage::new(&gpu, &source, (48, 36));

@@ -6,3 +6,4 @@ mod docs;
 mod listing;
 mod pictures;
 mod sweep;
+mod truth_cache;
