@@ -54,6 +54,7 @@ fn a_new_size_is_like_a_new_renderer() {
     let scene = scene("primitives");
     for info in techniques().iter().filter(|info| info.lights.contains(scene.lights[0].shape.kind())) {
         let mut kept = renderer(&gpu, &scene, &[info.id], FIRST);
+        assert_eq!(kept.technique(0).unwrap().answer(), info.answer(), "{}", info.id);
         let first = color(&mut kept, &scene);
         for size in [SECOND, FIRST] {
             kept.resize(size.0, size.1).unwrap();
