@@ -229,3 +229,26 @@ fn banned_words_are_found_in_prose_only() {
     assert_eq!(banned("a.rs", "x(\"first\n it goes\n on\", ball)\n").len(), 1);
     assert_eq!(banned("a.rs", "x(r#\"a \"word\" of a ball\"#, ball)\n").len(), 1);
 }
+
+// Width.
+
+const COLUMNS: usize = 100;
+
+#[test]
+fn comments_fit_on_a_page() {
+    let mut wrong = Vec::new();
+    for (name, text) in files(&[".rs", ".wgsl"]) {
+        let mut inside = None;
+        for (number, line) in text.lines().enumerate() {
+            let starts_in_code = inside.is_none();
+            let is_end = |part: &&str| line.strip_suffix(part).is_some_and(|head| head.ends_with("//"));
+            let is_comment = starts_in_code && prose(line, &mut inside).last().is_some_and(is_end);
+            // The row of a table is one line.
+            let is_row = line.trim_start_matches(['/', '!', ' ']).starts_with('|');
+            if is_comment && !is_row && line.chars().count() > COLUMNS {
+                wrong.push(format!("{name}:{}: a comment beyond column {COLUMNS}", number + 1));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} lines\n{}", wrong.len(), wrong.join("\n"));
+}

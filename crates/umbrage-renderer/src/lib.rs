@@ -6,7 +6,8 @@
 //! # fn picture(gpu: &umbrage::Gpu, scene: &umbrage::core::Scene) -> Result<(), umbrage::Error> {
 //! use umbrage_renderer::{LightPass, Renderer};
 //! let technique = umbrage::parse("pcf:kernel=7")?.make(gpu)?;
-//! let mut renderer = Renderer::new(gpu, scene, 640, 480, vec![LightPass { light: 0, technique }])?;
+//! let lights = vec![LightPass { light: 0, technique }];
+//! let mut renderer = Renderer::new(gpu, scene, 640, 480, lights)?;
 //! renderer.frame(&scene.camera)?;
 //! let picture = renderer.color()?;
 //! # Ok(()) }

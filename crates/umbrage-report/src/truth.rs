@@ -22,7 +22,8 @@ pub struct Tracing {
 pub struct Truth {
     /// Visibility, 0 where a pixel is not scored.
     pub visibility: Image<f32>,
-    /// The light that goes from each pixel to the eye, for techniques that answer with radiance; `None` where it is not known.
+    /// The light that goes from each pixel to the eye, for techniques that answer with radiance;
+    /// `None` where it is not known.
     pub radiance: Option<Image<[f32; 3]>>,
     /// Pixels that count: receiving, facing the light, not beside a depth discontinuity.
     pub mask: Image<bool>,

@@ -8,8 +8,9 @@
 //! use umbrage::depth_maps::Kernel;
 //! use umbrage::{Configure, techniques::pcf::Pcf};
 //!
-//! # fn frame(device: wgpu::Device, queue: wgpu::Queue, depth: &wgpu::TextureView, camera: umbrage::core::CameraView,
-//! #          scene: &umbrage::core::Scene) -> Result<(), umbrage::Error> {
+//! # use umbrage::core::{CameraView, Scene};
+//! # fn frame(device: wgpu::Device, queue: wgpu::Queue, depth: &wgpu::TextureView,
+//! #          camera: CameraView, scene: &Scene) -> Result<(), umbrage::Error> {
 //! // Once.
 //! let gpu = umbrage::Gpu::new(device, queue);
 //! let casters = umbrage::Casters::new(&gpu, scene)?;
@@ -19,7 +20,8 @@
 //! let mut recorder = umbrage::Recorder::new(&gpu);
 //! // Every frame, after the depth buffer is drawn.
 //! let view = umbrage::View {
-//!     camera, receivers: &receivers, casters: &casters, light: &scene.lights[0], textures: &scene.textures,
+//!     camera, receivers: &receivers, casters: &casters,
+//!     light: &scene.lights[0], textures: &scene.textures,
 //! };
 //! technique.prepare(&gpu, &view)?;
 //! let mut encoder = gpu.device.create_command_encoder(&Default::default());

@@ -51,7 +51,8 @@ impl Sweep {
     /// place.
     ///
     /// # Errors
-    /// What stops everything: sizes beyond the adapter's limit, settings that can't be, references that can't be read.
+    /// What stops everything: sizes beyond the adapter's limit, settings that can't be, references
+    /// that can't be read.
     pub fn run(&self, gpu: &Gpu, progress: &dyn Progress) -> Result<SweepOutcome, Error> {
         self.check(gpu)?;
         let mut pictures = Pictures::default();

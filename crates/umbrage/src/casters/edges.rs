@@ -66,7 +66,8 @@ pub(crate) struct MeshEdges {
 }
 
 impl MeshEdges {
-    /// Most shadows of the mesh that one point can be in: fronts and backs of a closed one, where both count.
+    /// Most shadows of the mesh that one point can be in: fronts and backs of a closed one, where
+    /// both count.
     fn layers(&self) -> u32 {
         self.adjacency.layers.saturating_mul(if self.adjacency.is_closed { 2 } else { 1 })
     }

@@ -72,7 +72,8 @@ pub fn score_frame(renderer: &mut Renderer, scene: &Scene, light: usize, size: (
     score(&Comparison { produced: &produced, reference, mask: &mask, hard: None, reach: Some(&reach) }).unwrap()
 }
 
-/// What is seen and the truth about a light: traced once by all tests of this process, and its rays once by all processes.
+/// What is seen and the truth about a light: traced once by all tests of this process, and its rays
+/// once by all processes.
 fn traced(scene: &Scene, light: usize, size: (u32, u32), samples: u32) -> Arc<(Geometry, Truth)> {
     static TRACED: LazyLock<Mutex<HashMap<Key, Arc<(Geometry, Truth)>>>> = LazyLock::new(Mutex::default);
     let options = Options { samples, ..Options::default() };
