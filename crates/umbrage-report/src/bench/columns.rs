@@ -15,26 +15,24 @@ pub(crate) struct Row<'a> {
     pub result: &'a BenchResult,
 }
 
+/// What a row has in a column.
+type Field = fn(&Row<'_>) -> String;
+
 /// One column.
 pub(crate) struct Column {
     /// Its heading in CSV.
     pub name: &'static str,
     /// What CSV has in it.
-    pub field: fn(&Row<'_>) -> String,
+    pub field: Field,
     /// Its heading on the terminal and what is below, for columns that are shown there.
-    pub shown: Option<(&'static str, fn(&Row<'_>) -> String)>,
+    pub shown: Option<(&'static str, Field)>,
 }
 
-const fn of(name: &'static str, field: fn(&Row<'_>) -> String) -> Column {
+const fn of(name: &'static str, field: Field) -> Column {
     Column { name, field, shown: None }
 }
 
-const fn shown(
-    name: &'static str,
-    field: fn(&Row<'_>) -> String,
-    heading: &'static str,
-    text: fn(&Row<'_>) -> String,
-) -> Column {
+const fn shown(name: &'static str, field: Field, heading: &'static str, text: Field) -> Column {
     Column { name, field, shown: Some((heading, text)) }
 }
 

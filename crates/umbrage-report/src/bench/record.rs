@@ -18,7 +18,7 @@ use umbrage::{Owner, Stats};
 /// What `bench` found.
 #[derive(Clone, Debug, Serialize)]
 pub struct BenchReport {
-    /// [`SCHEMA`].
+    /// [`SCHEMA`](crate::record::SCHEMA).
     pub schema: u32,
     /// Circumstances.
     pub made: Made,

@@ -75,7 +75,8 @@ pub fn score_frame(renderer: &mut Renderer, scene: &Scene, light: usize, size: (
 /// What is seen and the truth about a light: traced once by all tests of this process, and its rays
 /// once by all processes.
 fn traced(scene: &Scene, light: usize, size: (u32, u32), samples: u32) -> Arc<(Geometry, Truth)> {
-    static TRACED: LazyLock<Mutex<HashMap<Key, Arc<(Geometry, Truth)>>>> = LazyLock::new(Mutex::default);
+    type Known = Mutex<HashMap<Key, Arc<(Geometry, Truth)>>>;
+    static TRACED: LazyLock<Known> = LazyLock::new(Mutex::default);
     let options = Options { samples, ..Options::default() };
     let key = SceneKey::new(scene).of(&scene.lights[light], size, &options);
     // Two tests that want the same at once trace it twice: none waits for what others trace.
