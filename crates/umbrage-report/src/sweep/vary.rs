@@ -126,6 +126,6 @@ mod tests {
         }
         assert!(text("pcf:size=1|2,size=3").contains("`size` comes twice"));
         let many = (0..40).map(|v| v.to_string()).collect::<Vec<_>>().join("|");
-        assert!(text(&format!("pcf:size={many},taps={many}")).contains("1600 settings; 1000 at most"));
+        assert!(text(&format!("pcf:size={many},taps={many}")).contains("1600 settings, more than 1000"));
     }
 }
