@@ -18,7 +18,7 @@ const STORED: &[(&str, usize, f64)] = &[
     ("bunny", 0, 0.05),
     ("contact", 0, 0.005),
     ("fence", 0, 0.005),
-    ("lantern", 1, 0.005),
+    ("lantern", 1, 0.004),
     ("city", 1, 0.005),
     // The silhouette of these changes from one end of the light to the other.
     ("models", 0, 0.13),
