@@ -185,7 +185,8 @@ fn source(krate: &str) -> Modules {
 }
 
 /// Folders of the library whose files import each other in one direction.
-const FOLDERS: [&str; 9] = [
+const FOLDERS: [&str; 11] = [
+    "casters",
     "depth_maps",
     "moment_maps",
     "silhouettes",
@@ -194,6 +195,7 @@ const FOLDERS: [&str; 9] = [
     "shader",
     "settings",
     "techniques::light_mask",
+    "techniques::volume",
     "techniques::wedges",
 ];
 

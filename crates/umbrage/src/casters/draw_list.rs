@@ -1,6 +1,7 @@
 //! Which instances a view draws.
 
-use super::{Casters, Placed};
+use super::placed::Placed;
+use super::world::Casters;
 use crate::{gpu::Gpu, passes::Passes};
 use std::ops::Range;
 use umbrage_core::Bounds;

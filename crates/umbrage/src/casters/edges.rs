@@ -1,6 +1,9 @@
 //! Edges and planes of the meshes on the GPU, for techniques that extrude silhouettes.
 
-use super::{Casters, eye_tree::EyeTree, poses};
+use super::eye_tree::EyeTree;
+use super::placed::Placed;
+use super::poses::{self, Poses};
+use super::vertices::MeshPart;
 use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{error::Error, gpu::Gpu, shader::Shared, shader::shader_struct};
 use std::sync::{Arc, OnceLock};
@@ -72,14 +75,33 @@ impl MeshEdges {
         self.adjacency.layers.saturating_mul(if self.adjacency.is_closed { 2 } else { 1 })
     }
 
+    /// What remakes the planes of a posed mesh has to know.
+    pub(super) fn planes(&self) -> poses::Planes {
+        poses::Planes {
+            first_triangle: self.first_triangle,
+            triangle_count: self.triangle_count,
+            center: self.adjacency.center.as_vec3().to_array(),
+        }
+    }
+
     /// For counts that start at the eye; made when first asked for.
     pub fn eye_tree(&self, mesh: &Mesh) -> &EyeTree {
         self.eye_tree.get_or_init(|| EyeTree::new(mesh, &self.adjacency))
     }
 }
 
+/// What edges are made of.
+pub(super) struct Source<'a> {
+    pub meshes: &'a [MeshPart],
+    pub poses: &'a Poses,
+    pub placed: &'a [Placed],
+    pub positions: &'a wgpu::Buffer,
+    pub indices: &'a wgpu::Buffer,
+    pub instances: &'a wgpu::Buffer,
+}
+
 impl Edges {
-    pub(super) fn new(gpu: &Gpu, casters: &Casters) -> Result<Self, Error> {
+    pub(super) fn new(gpu: &Gpu, casters: &Source<'_>) -> Result<Self, Error> {
         let (mut edges, mut planes, mut meshes) = (Vec::<Edge>::new(), Vec::<Vec4>::new(), Vec::<MeshEdges>::new());
         for (number, part) in casters.meshes.iter().enumerate() {
             let adjacency = match casters.poses.source(number) {
@@ -112,7 +134,7 @@ impl Edges {
         let edges = gpu.buffer("edges", &edges, wgpu::BufferUsages::STORAGE);
         let planes = gpu.buffer("planes", &planes, wgpu::BufferUsages::STORAGE);
         let of_edges = [edges.as_entire_binding(), planes.as_entire_binding()];
-        let of_vertices = [&casters.positions, &casters.indices, &casters.instances].map(|b| b.as_entire_binding());
+        let of_vertices = [casters.positions, casters.indices, casters.instances].map(|b| b.as_entire_binding());
         let all = [&of_edges[..], &of_vertices].concat();
         let placed = casters.placed.iter().filter(|p| p.casts);
         let layers = placed.map(|p| meshes[p.mesh as usize].layers()).fold(0, u32::saturating_add);
@@ -122,7 +144,7 @@ impl Edges {
             make_edges: part(gpu, WITHOUT_INDICES, &all),
             make_triangles: part(gpu, WITHOUT_EDGES, &all),
             draw: bind(gpu, "edges", &Self::draw_layout(gpu), &all),
-            pose: (!casters.poses.is_empty()).then(|| poses::planes_group(gpu, &casters.indices, &planes)),
+            pose: (!casters.poses.is_empty()).then(|| poses::planes_group(gpu, casters.indices, &planes)),
             meshes,
             bytes: edges.size() + planes.size(),
         })

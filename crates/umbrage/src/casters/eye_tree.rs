@@ -1,8 +1,6 @@
 //! How many triangles lie between the eye and the light: where a count that starts at the eye has
 //! to begin.
 
-use super::{MeshEdges, Placed};
-use crate::view::View;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::{Bvh2, builder::build_bvh2};
 use obvhs::ray::Ray;
@@ -22,36 +20,12 @@ pub(crate) struct EyeTree {
 
 /// A segment from the eye to the light in mesh space; w = 0 is the direction to a light infinitely
 /// far away.
-struct Sight {
-    eye: DVec3,
-    light: DVec4,
+pub(super) struct Sight {
+    pub eye: DVec3,
+    pub light: DVec4,
     /// What passes the segment, or an end of it, by no more than this can't be told to be on one
     /// side, mesh units.
-    tolerance: f64,
-}
-
-/// How many of a caster's triangles lie between the eye and a light's centre, as
-/// [`EyeTree::count`]; nor can it be told of meshes that the GPU alone knows. `rounding` is that of
-/// the view, metres.
-pub(crate) fn before_eye(
-    view: &View<'_>,
-    placed: &Placed,
-    mesh: &MeshEdges,
-    light: DVec4,
-    rounding: f64,
-) -> Option<[u32; 2]> {
-    let to_mesh = &placed.sides.as_ref().filter(|_| !placed.posed)?.mesh_from_world;
-    let center = light.truncate();
-    let sight = Sight {
-        eye: to_mesh.transform_point3(view.camera.eye),
-        light: match light.w == 0.0 {
-            true => to_mesh.transform_vector3(center).extend(0.0),
-            false => to_mesh.transform_point3(center).extend(1.0),
-        },
-        tolerance: rounding * largest_stretch(&to_mesh.matrix3),
-    };
-    let part = &view.casters.meshes()[placed.mesh as usize].mesh;
-    mesh.eye_tree(part).count(part, &mesh.adjacency, &sight)
+    pub tolerance: f64,
 }
 
 /// The most that a matrix lengthens a vector, from above.
@@ -92,7 +66,7 @@ impl EyeTree {
 
     /// How many triangles the segment crosses, of those that face the light and of those that face
     /// away. `None` where it passes an edge or ends at a triangle so closely that rounding decides.
-    fn count(&self, mesh: &Mesh, adjacency: &Adjacency, sight: &Sight) -> Option<[u32; 2]> {
+    pub(super) fn count(&self, mesh: &Mesh, adjacency: &Adjacency, sight: &Sight) -> Option<[u32; 2]> {
         let direction = sight.light.truncate() - sight.eye * sight.light.w;
         let length = direction.length();
         let is_safe = length > 0.0 && length.is_finite() && sight.tolerance < 0.5 * self.margin;

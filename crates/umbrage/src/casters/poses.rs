@@ -2,7 +2,7 @@
 //! buffers, which a compute pass fills when the pose changes. All techniques, and hosts, draw them
 //! like any others.
 
-use super::{Edges, MeshPart};
+use super::vertices::MeshPart;
 use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{error::Error, gpu::Gpu, passes::Passes, shader::Shader, shader::Shared, shader::shader_struct};
 use std::sync::{Arc, OnceLock};
@@ -234,8 +234,14 @@ impl Poses {
         Ok(())
     }
 
-    /// Bends what has changed, and remakes its planes where there are any.
-    pub fn record(&mut self, passes: &mut Passes<'_>, edges: Option<&Edges>) {
+    /// Bends what has changed, and remakes its planes where there are any: `group` is that of
+    /// [`planes_group`], `planes_of` tells where those of a mesh lie.
+    pub fn record(
+        &mut self,
+        passes: &mut Passes<'_>,
+        group: Option<&wgpu::BindGroup>,
+        planes_of: impl Fn(u32) -> Option<Planes>,
+    ) {
         let Some(device) = self.device.as_ref().filter(|_| self.posed.iter().any(|p| p.changed)) else { return };
         self.work.clear();
         self.joints.clear();
@@ -243,11 +249,8 @@ impl Poses {
         for (posed, mesh) in self.posed.iter_mut().zip(self.scene_meshes as u32..).filter(|(p, _)| p.changed) {
             posed.changed = false;
             let mut work = PosedMesh { first_joint: self.joints.len() as u32, ..posed.work };
-            if let Some(edges) = edges {
-                let of_mesh = edges.of_mesh(mesh);
-                work.first_triangle = of_mesh.first_triangle;
-                work.triangle_count = of_mesh.triangle_count;
-                work.center = of_mesh.adjacency.center.as_vec3().to_array();
+            if let Some(Planes { first_triangle, triangle_count, center }) = planes_of(mesh) {
+                work = PosedMesh { first_triangle, triangle_count, center, ..work };
             }
             most_vertices = most_vertices.max(work.vertex_count);
             most_triangles = most_triangles.max(work.triangle_count);
@@ -263,7 +266,7 @@ impl Poses {
             pass.set_pipeline(&device.vertices);
             pass.dispatch_workgroups(most_vertices.div_ceil(GROUP), meshes, 1);
         }
-        if let Some(planes) = edges.and_then(|e| e.pose.as_ref()).filter(|_| most_triangles > 0) {
+        if let Some(planes) = group.filter(|_| most_triangles > 0) {
             pass.set_bind_group(1, planes, &[]);
             pass.set_pipeline(&device.planes);
             pass.dispatch_workgroups(most_triangles.div_ceil(GROUP), meshes, 1);
@@ -274,6 +277,14 @@ impl Poses {
     pub fn bytes(&self) -> u64 {
         self.device.as_ref().map_or(0, |d| d.bytes)
     }
+}
+
+/// The planes of a mesh among those of all.
+pub(super) struct Planes {
+    pub first_triangle: u32,
+    pub triangle_count: u32,
+    /// What planes are relative to, in mesh space.
+    pub center: [f32; 3],
 }
 
 fn rows(joint: &DAffine3) -> JointRows {
@@ -290,7 +301,7 @@ const WRITTEN: wgpu::BindingType = wgpu::BindingType::Buffer {
     min_binding_size: None,
 };
 
-/// The bind group of [`Edges`] that planes are remade through: indices and planes.
+/// The bind group that planes are remade through: indices and planes.
 pub(super) fn planes_group(gpu: &Gpu, indices: &wgpu::Buffer, planes: &wgpu::Buffer) -> wgpu::BindGroup {
     bind(gpu, "planes of poses", &planes_layout(gpu), &[indices.as_entire_binding(), planes.as_entire_binding()])
 }

@@ -1,6 +1,9 @@
 //! What a camera sees of the scene, drawn by a host's own pipelines.
 
-use super::{Casters, DrawList, InstanceNumbers, Surface, texture_layout, vertex_layouts};
+use super::draw_list::{DrawList, InstanceNumbers, Surface};
+use super::material::texture_layout;
+use super::vertices::vertex_layouts;
+use super::world::Casters;
 use crate::{gpu::Gpu, passes::Passes};
 use umbrage_core::{CameraView, Frustum};
 

@@ -1,13 +1,15 @@
 //! The receivers' depth for volumes to be compared with, where their own buffer will not do.
 
-use super::DEPTH_SHADER;
 use super::situation::is_parallel;
 use crate::fullscreen::{UNIFORM, bind, layout};
 use crate::receivers::Eye;
-use crate::shader::shader_struct;
+use crate::shader::{Shader, shader_struct};
 use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View};
 use umbrage_core::CameraView;
 use umbrage_core::glam::{DMat4, DVec4};
+
+pub(super) const DEPTH_SHADER: Shader =
+    Shader::new("volume depth", include_str!("depth.wgsl")).with_layouts(&[DepthBounds::LAYOUT]);
 
 shader_struct! {
     /// See `depth.wgsl`.

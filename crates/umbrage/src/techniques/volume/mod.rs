@@ -15,73 +15,21 @@ mod technique;
 mod views;
 
 use crate::settings::Configure;
-use crate::shader::Shader;
 pub use crate::silhouettes::Extrude;
 use crate::silhouettes::FIND_SHADER;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
-use crate::{Error, Gpu, Passes, View, VisibilityTarget, settings};
-pub use options::{Count, Counter, Culls, Parallel, Reach, Stencil};
+use crate::{Error, Gpu, Passes, View, VisibilityTarget};
+pub use options::{Count, Counter, Culls, Parallel, Reach, Stencil, Volume};
+use depth::DEPTH_SHADER;
+use pipelines::{COUNT_SHADER, RESOLVE_SHADER};
+use plan::PLAN_SHADER;
+use views::{VIEW_BASE_SHADER, VIEWS_SHADER};
 use std::any::Any;
 use umbrage_core::LightKinds;
 
-const COUNT_SHADER: Shader = Shader::new("volumes", include_str!("count.wgsl"));
-
-const RESOLVE_SHADER: Shader = Shader::new("volume visibility", include_str!("resolve.wgsl"));
-
-const DEPTH_SHADER: Shader =
-    Shader::new("volume depth", include_str!("depth.wgsl")).with_layouts(&[depth::DepthBounds::LAYOUT]);
-
-const VIEWS_SHADER: Shader = Shader::new("views of volumes", include_str!("views.wgsl"));
-
-const VIEW_BASE_SHADER: Shader =
-    Shader::new("views of volumes, base", include_str!("view_base.wgsl")).with_layouts(&[views::ViewBase::LAYOUT]);
-
-const PLAN_SHADER: Shader = Shader::new("plan of casters", include_str!("plan.wgsl"));
-
-settings! {
-    /// See the module.
-    pub struct Volume {
-        /// Where counting the shadows of a point starts: at the eye, with the number of shadows
-        /// that the eye is in (`z-pass-eye`); at the eye where a caster cannot shadow it, otherwise
-        /// at infinity (`auto`); at infinity (`z-fail`); at the eye, with 0 (`z-pass`, wrong where
-        /// the eye is in shadow); or only whether the number is odd (`xor`, wrong where shadows
-        /// overlap).
-        count: Count = Count::ZPassEye,
-        /// Where silhouettes are found: in compute shaders, in vertex shaders that visit every
-        /// edge, or on the CPU.
-        extrude: Extrude = Extrude::Compute,
-        /// What counts: 8 bits of stencil, which take 256 shadows on one point for none; floats,
-        /// which hold any number; or stencil where the casters cannot have 256 layers, and floats
-        /// elsewhere.
-        counter: Counter = Counter::Auto,
-        /// Whether the stencil counts front and back faces in one pass or in two.
-        stencil: Stencil = Stencil::TwoSided,
-        /// Where shadows end: behind everything visible, nowhere, or where the light does (the
-        /// picture is the same, visibility beyond the light's range is not).
-        reach: Reach = Reach::Scene,
-        /// What is left out because it changes nothing: everything that can be, nothing, or one
-        /// kind: casters that the light does not reach, casters that shadow nothing in view, caps
-        /// out of view, or pixels beyond the light (the light's range matters with `reach =
-        /// finite`).
-        cull: Culls = Culls::All,
-        /// Counts nothing at points beyond the light's range, at the cost of one more pass over the
-        /// depth (`reach = finite`).
-        depth_bounds: bool = false,
-        /// Sides of parallel light: triangles that meet at infinity, or quads and dark caps as for
-        /// other lights.
-        parallel: Parallel = Parallel::Triangles,
-        /// At most this many casters have shadows, the most important ones by size on the screen; 0
-        /// means all.
-        budget: u32 = 0, in 0..=1_000_000, unit "casters",
-        /// For hosts that cull faces or hide casters from the camera: counts all casters from
-        /// infinity, with both sides of meshes.
-        unseen: bool = false,
-    }
-}
-
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {
-    id: "volume",
+    id: options::ID,
     title: "Shadow volumes",
     summary: "Counts the shadow volumes that each point is in: hard shadows exact to the pixel. Ignores alpha masks.",
     source: "PX 3.2–3.4, 5; SG \"Practical and Robust Stenciled Shadow Volumes\"; ZA 2.4; GG 9",

@@ -1,8 +1,10 @@
 //! The technique's parameters as types.
 
-use super::Volume;
-use crate::choices;
+use crate::{choices, settings};
 use crate::silhouettes::{Extrude, Part};
+
+/// What users type.
+pub(super) const ID: &str = "volume";
 
 choices! {
     /// From where shadows are counted.
@@ -90,6 +92,47 @@ impl Count {
             Self::ZFail => &[Part::FailSides, Part::Caps],
             Self::ZPass | Self::Xor => &[Part::PassSides],
         }
+    }
+}
+
+settings! {
+    /// Settings of shadow volumes.
+    pub struct Volume {
+        /// Where counting the shadows of a point starts: at the eye, with the number of shadows
+        /// that the eye is in (`z-pass-eye`); at the eye where a caster cannot shadow it, otherwise
+        /// at infinity (`auto`); at infinity (`z-fail`); at the eye, with 0 (`z-pass`, wrong where
+        /// the eye is in shadow); or only whether the number is odd (`xor`, wrong where shadows
+        /// overlap).
+        count: Count = Count::ZPassEye,
+        /// Where silhouettes are found: in compute shaders, in vertex shaders that visit every
+        /// edge, or on the CPU.
+        extrude: Extrude = Extrude::Compute,
+        /// What counts: 8 bits of stencil, which take 256 shadows on one point for none; floats,
+        /// which hold any number; or stencil where the casters cannot have 256 layers, and floats
+        /// elsewhere.
+        counter: Counter = Counter::Auto,
+        /// Whether the stencil counts front and back faces in one pass or in two.
+        stencil: Stencil = Stencil::TwoSided,
+        /// Where shadows end: behind everything visible, nowhere, or where the light does (the
+        /// picture is the same, visibility beyond the light's range is not).
+        reach: Reach = Reach::Scene,
+        /// What is left out because it changes nothing: everything that can be, nothing, or one
+        /// kind: casters that the light does not reach, casters that shadow nothing in view, caps
+        /// out of view, or pixels beyond the light (the light's range matters with `reach =
+        /// finite`).
+        cull: Culls = Culls::All,
+        /// Counts nothing at points beyond the light's range, at the cost of one more pass over the
+        /// depth (`reach = finite`).
+        depth_bounds: bool = false,
+        /// Sides of parallel light: triangles that meet at infinity, or quads and dark caps as for
+        /// other lights.
+        parallel: Parallel = Parallel::Triangles,
+        /// At most this many casters have shadows, the most important ones by size on the screen; 0
+        /// means all.
+        budget: u32 = 0, in 0..=1_000_000, unit "casters",
+        /// For hosts that cull faces or hide casters from the camera: counts all casters from
+        /// infinity, with both sides of meshes.
+        unseen: bool = false,
     }
 }
 

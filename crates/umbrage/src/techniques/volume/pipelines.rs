@@ -1,14 +1,17 @@
 //! Pipelines that count volumes and turn counts into visibility, one for each combination that came
 //! up.
 
-use super::COUNT_SHADER;
-use super::RESOLVE_SHADER;
 use super::options::CounterKind;
 use crate::casters::Edges;
 use crate::fullscreen::{FLOATS, additive, layout, texture};
+use crate::shader::Shader;
 use crate::silhouettes::Part;
 use crate::{gpu::Gpu, visibility::VisibilityTarget};
 use wgpu::{CompareFunction, StencilFaceState, StencilOperation};
+
+pub(super) const COUNT_SHADER: Shader = Shader::new("volumes", include_str!("count.wgsl"));
+
+pub(super) const RESOLVE_SHADER: Shader = Shader::new("volume visibility", include_str!("resolve.wgsl"));
 
 /// How surfaces of volumes are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,11 +1,13 @@
 //! A plan of the scene from above: which casters cast shadows this frame, and why others do not.
 
-use super::PLAN_SHADER;
 use super::select::{Fate, Selection};
 use crate::fullscreen::attachment;
+use crate::shader::Shader;
 use crate::{gpu::Gpu, passes::Passes, view::View};
 use umbrage_core::Bounds;
 use umbrage_core::glam::{DVec2, DVec3, DVec4, Vec2};
+
+pub(super) const PLAN_SHADER: Shader = Shader::new("plan of casters", include_str!("plan.wgsl"));
 
 /// A corner of a coloured triangle: place on the target, colour and opacity.
 type Vertex = [f32; 6];

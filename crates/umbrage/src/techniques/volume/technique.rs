@@ -1,8 +1,9 @@
 //! A frame: choose casters, find silhouettes, count, resolve.
 
 use super::counter::Counter;
+use super::options;
 use super::depth::Projection;
-use super::options::{Count, CounterKind, Options};
+use super::options::{Count, CounterKind, ID, Options};
 use super::pipelines::{Key, Pipelines, Test};
 use super::select::{Fate, Selection};
 use super::situation::is_parallel;
@@ -32,7 +33,7 @@ pub(super) struct Volume {
 const STENCIL_LAYERS: u32 = 256;
 
 impl Volume {
-    pub fn new(gpu: &Gpu, settings: &super::Volume) -> Self {
+    pub fn new(gpu: &Gpu, settings: &options::Volume) -> Self {
         let options = Options::of(settings);
         let silhouettes = Silhouettes::new(gpu, options.extrude);
         Self {
@@ -57,7 +58,7 @@ impl Volume {
         match self.options.counter {
             _ if self.views.as_ref().is_some_and(Views::needs_counts) => Ok(CounterKind::Float),
             Some(CounterKind::Stencil) if !has_stencil => Err(Error::Unsupported {
-                technique: super::INFO.id.into(),
+                technique: ID.into(),
                 what: "this adapter with a stencil counter, since it lacks DEPTH32FLOAT_STENCIL8; set counter=float"
                     .into(),
             }),
@@ -124,7 +125,7 @@ impl Volume {
     fn choose(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<DVec4, Error> {
         if !self.clamps && is_parallel(&view.camera) {
             let what = "parallel projections on this adapter, which lacks DEPTH_CLIP_CONTROL".into();
-            return Err(Error::Unsupported { technique: super::INFO.id.into(), what });
+            return Err(Error::Unsupported { technique: ID.into(), what });
         }
         self.casting = view.casters.casting().len() as u32;
         self.selection.choose(gpu, view, &self.options, self.clamps)

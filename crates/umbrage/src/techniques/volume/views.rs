@@ -1,17 +1,20 @@
 //! Pictures of what happens inside: volumes, counts, overdraw, silhouettes, and which casters were
 //! kept.
 
-use super::VIEW_BASE_SHADER;
-use super::VIEWS_SHADER;
 use super::plan::Plan;
 use super::select::Selection;
 use crate::casters::Edges;
 use crate::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout, target_texture};
 use crate::receivers::Eye;
-use crate::shader::shader_struct;
+use crate::shader::{Shader, shader_struct};
 use crate::silhouettes::{Part, Silhouettes};
 use crate::technique::DebugView;
 use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View};
+
+pub(super) const VIEWS_SHADER: Shader = Shader::new("views of volumes", include_str!("views.wgsl"));
+
+pub(super) const VIEW_BASE_SHADER: Shader =
+    Shader::new("views of volumes, base", include_str!("view_base.wgsl")).with_layouts(&[ViewBase::LAYOUT]);
 
 /// What can be asked for.
 pub(super) const NAMES: &[&str] = &["volumes", "count", "overdraw", "silhouettes", "culling"];
