@@ -19,13 +19,13 @@ pub use crate::silhouettes::Extrude;
 use crate::silhouettes::FIND_SHADER;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu, Passes, View, VisibilityTarget};
-pub use options::{Count, Counter, Culls, Parallel, Reach, Stencil, Volume};
 use depth::DEPTH_SHADER;
+pub use options::{Count, Counter, Culls, Parallel, Reach, Stencil, Volume};
 use pipelines::{COUNT_SHADER, RESOLVE_SHADER};
 use plan::PLAN_SHADER;
-use views::{VIEW_BASE_SHADER, VIEWS_SHADER};
 use std::any::Any;
 use umbrage_core::LightKinds;
+use views::{VIEW_BASE_SHADER, VIEWS_SHADER};
 
 /// See the module.
 pub const INFO: TechniqueInfo = TechniqueInfo {

@@ -1,7 +1,7 @@
 //! The technique's parameters as types.
 
-use crate::{choices, settings};
 use crate::silhouettes::{Extrude, Part};
+use crate::{choices, settings};
 
 /// What users type.
 pub(super) const ID: &str = "volume";

@@ -1,8 +1,8 @@
 //! A frame: choose casters, find silhouettes, count, resolve.
 
 use super::counter::Counter;
-use super::options;
 use super::depth::Projection;
+use super::options;
 use super::options::{Count, CounterKind, ID, Options};
 use super::pipelines::{Key, Pipelines, Test};
 use super::select::{Fate, Selection};
