@@ -2,15 +2,13 @@
 //! ones stand still.
 
 use crate::common::{against_truth, gpu, renderer, scene, visibility};
+use umbrage::Registry;
 use umbrage::core::{Camera, Image, Light, LightShape, Scene, glam::DVec3};
-use umbrage::find;
 
 const SIZE: (u32, u32) = (320, 240);
 
-fn filters() -> &'static [&'static str] {
-    let filter = find("cascaded").unwrap().params().iter().find(|p| p.name == "filter").unwrap();
-    let umbrage::ParamKind::Choice { values } = &filter.kind else { panic!("a choice") };
-    values
+fn filters() -> Vec<&'static str> {
+    Registry::default().filters(false).map(|info| info.id).collect()
 }
 
 fn mae(a: &Image<f32>, b: &Image<f32>) -> f64 {
@@ -33,7 +31,7 @@ fn one_split_is_the_map_of_the_filter() {
     for light in [sun(), lamp()] {
         let scene = Scene { lights: vec![light], ..scene("primitives", 0.5) };
         for filter in filters() {
-            let kernel = if *filter == "pcf" { ",kernel=3" } else { "" };
+            let kernel = if filter == "pcf" { ",kernel=3" } else { "" };
             let set = format!("splits=1,blend=off,filter={filter}{kernel}");
             let split = visibility(&mut renderer(&gpu, &scene, 0, "cascaded", &set, SIZE), &scene);
             let alone = visibility(&mut renderer(&gpu, &scene, 0, filter, "", SIZE), &scene);
