@@ -7,8 +7,8 @@ use crate::view::View;
 use umbrage_core::glam::DVec4;
 
 /// How many of a caster's triangles lie between the eye and a light's centre, as
-/// [`super::eye_tree::EyeTree::count`] tells; nor can it be told of meshes that the GPU alone knows.
-/// `rounding` is that of the view, metres.
+/// [`super::eye_tree::EyeTree::count`] tells; nor can it be told of meshes that the GPU alone
+/// knows. `rounding` is that of the view, metres.
 pub(crate) fn before_eye(
     view: &View<'_>,
     placed: &Placed,
