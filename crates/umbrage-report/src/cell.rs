@@ -65,7 +65,7 @@ impl Cell<'_> {
     ) -> ResultRecord {
         let mut record = ResultRecord::of(choice);
         let mut shown = Pictures::default();
-        let filled = self.actor(choice).and_then(|actor| {
+        let filled = self.actor(stage, choice).and_then(|actor| {
             let name = format!("{place}-{}", choice.label());
             stage.act(self.light, actor, |renderer| self.fill(&mut record, renderer, frames, &name, &mut shown))
         });
@@ -77,9 +77,9 @@ impl Cell<'_> {
     }
 
     /// The technique of a choice, where it can do the light.
-    pub(crate) fn actor(&self, choice: &Choice) -> Result<Actor, Error> {
+    pub(crate) fn actor(&self, stage: &Stage<'_>, choice: &Choice) -> Result<Actor, Error> {
         choice.supports(self.source.scene.lights[self.light].shape.kind())?;
-        Actor::of(choice, self.gpu)
+        Actor::of(choice, stage.gpu())
     }
 
     fn fill(

@@ -7,7 +7,7 @@ use umbrage_renderer::{LightPass, Renderer};
 
 /// A scene at one size, on which techniques take turns.
 pub(crate) struct Stage<'a> {
-    gpu: &'a Gpu,
+    gpu: Gpu,
     source: &'a Source,
     size: (u32, u32),
     /// Made when it is first needed.
@@ -36,8 +36,8 @@ impl Actor {
 }
 
 impl<'a> Stage<'a> {
-    pub(crate) fn new(gpu: &'a Gpu, source: &'a Source, size: (u32, u32)) -> Self {
-        Self { gpu, source, size, renderer: None }
+    pub(crate) fn new(gpu: &Gpu, source: &'a Source, size: (u32, u32)) -> Self {
+        Self { gpu: gpu.clone(), source, size, renderer: None }
     }
 
     /// Does `work` with `actor` on a light, and gives the actor back. Whatever fails takes the
@@ -51,7 +51,7 @@ impl<'a> Stage<'a> {
         actor: Actor,
         work: impl FnOnce(&mut Renderer) -> Result<T, Error>,
     ) -> Result<(Actor, T), Error> {
-        let gpu = self.gpu;
+        let gpu = self.gpu.clone();
         let acted = gpu.catch(|| {
             let renderer = self.renderer()?;
             let before = renderer.exchange(0, LightPass { light, technique: actor.technique })?;
@@ -67,12 +67,30 @@ impl<'a> Stage<'a> {
         acted
     }
 
+    /// The device to make actors on.
+    pub(crate) fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Takes a new device where the adapter is a software one: that of Mesa keeps about a megabyte
+    /// of every frame for as long as its device lives. No actor may be left.
+    pub(crate) fn renew(&mut self) {
+        self.renderer = None;
+        let adapter = self.gpu.adapter();
+        if adapter.kind == "software"
+            && let Ok(gpu) = Gpu::request(Some(&adapter.name))
+            && gpu.adapter() == adapter
+        {
+            self.gpu = gpu;
+        }
+    }
+
     fn renderer(&mut self) -> Result<&mut Renderer, Error> {
         let renderer = match self.renderer.take() {
             Some(renderer) => renderer,
             None => {
-                let resting = LightPass { light: 0, technique: baseline::floor(self.gpu) };
-                Renderer::new(self.gpu, &self.source.scene, self.size.0, self.size.1, vec![resting])?
+                let resting = LightPass { light: 0, technique: baseline::floor(&self.gpu) };
+                Renderer::new(&self.gpu, &self.source.scene, self.size.0, self.size.1, vec![resting])?
             }
         };
         Ok(self.renderer.insert(renderer))

@@ -48,12 +48,12 @@ impl LightRun<'_> {
         let cell = Cell { gpu, source, light, truth, tracing };
         let reference = cell.reference(place, pictures)?;
         let size = bare_size(plan.settings.iter().map(|setting| &setting.choice));
-        let mut timing = Timing::new(gpu, &source.scene.camera, light, self.frames, size)?;
+        let mut timing = Timing::new(&source.scene.camera, light, self.frames, size);
         let mut results: Vec<(String, SweepResult)> = Vec::new();
         let what = format!("{}, light {light} ({}): settings", source.scene.name, kind.name());
         self.progress.begin(&what, plan.settings.len() as u64);
         for (done, setting) in (1u64..).zip(&plan.settings) {
-            let made = cell.actor(&setting.choice);
+            let made = cell.actor(stage, &setting.choice);
             let refused = made.as_ref().is_err_and(|error| Status::of(error).0 == Status::Failed);
             if !(refused && setting.by_rule) {
                 let mut result = SweepResult::of(&setting.choice);
@@ -61,7 +61,7 @@ impl LightRun<'_> {
                     Ok((actor, (scores, cost))) => {
                         result.errors = errors(&scores);
                         result.scores = Some(scores);
-                        timing.add(stage, results.len(), actor, cost.bytes);
+                        timing.add(stage, results.len(), actor, cost.bytes)?;
                     }
                     Err(error) => result.fail(&error),
                 }
@@ -69,7 +69,7 @@ impl LightRun<'_> {
             }
             self.progress.at(done);
         }
-        let (timed, yardsticks) = timing.finish(stage);
+        let (timed, yardsticks) = timing.finish(stage)?;
         self.progress.end();
         for (number, timed) in timed {
             results[number].1.set_time(timed);

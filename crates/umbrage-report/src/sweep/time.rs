@@ -11,11 +11,11 @@ use crate::{
     stage::{Actor, Stage},
     sweep::record::{Clock, Yardsticks},
 };
-use umbrage::{Gpu, Stats, baseline};
+use umbrage::{Stats, baseline};
 use umbrage_core::Camera;
 
-/// GPU memory of the settings that take turns: little enough for any adapter. One that needs more
-/// is measured alone with the yardsticks.
+/// GPU memory of the settings that wait for their turns: little enough for any adapter. The one
+/// that goes beyond it is the last of its batch.
 const BATCH_BYTES: u64 = 1 << 29;
 
 /// The pipelines of a setting, roughly.
@@ -45,8 +45,6 @@ pub(crate) struct Timing<'a> {
     light: usize,
     frames: u32,
     bare_size: u32,
-    floor: Runner,
-    bare: Runner,
     /// Those that take turns next, by their numbers, and the memory that they hold.
     waiting: Vec<(usize, Runner)>,
     held: u64,
@@ -64,47 +62,42 @@ struct Batch {
 
 impl<'a> Timing<'a> {
     /// For up to `frames` of each setting, with a bare minimum of this size.
+    pub(crate) fn new(camera: &'a Camera, light: usize, frames: u32, bare_size: u32) -> Self {
+        let (waiting, batches, timed) = (Vec::new(), Vec::new(), Vec::new());
+        Self { camera, light, frames, bare_size, waiting, held: 0, batches, timed }
+    }
+
+    /// A setting that has drawn already and holds so many bytes. Those that are too many to wait
+    /// take their turns.
     ///
     /// # Errors
     /// Yardsticks that can't be made here.
-    pub(crate) fn new(gpu: &Gpu, camera: &'a Camera, light: usize, frames: u32, bare_size: u32) -> Result<Self, Error> {
-        let floor = Runner::new(Actor::new(gpu, baseline::floor(gpu)));
-        let bare = Runner::new(Actor::new(gpu, baseline::bare_minimum(gpu, bare_size, 1)?));
-        let (waiting, batches, timed) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(Self { camera, light, frames, bare_size, floor, bare, waiting, held: 0, batches, timed })
-    }
-
-    /// A setting that has drawn already and holds so many bytes.
-    pub(crate) fn add(&mut self, stage: &mut Stage<'_>, number: usize, actor: Actor, bytes: u64) {
-        let bytes = bytes + PIPELINE_BYTES;
-        if self.held + bytes > BATCH_BYTES {
-            self.take_turns(stage);
-        }
+    pub(crate) fn add(&mut self, stage: &mut Stage<'_>, number: usize, actor: Actor, bytes: u64) -> Result<(), Error> {
         self.waiting.push((number, Runner::new(actor)));
-        self.held += bytes;
+        self.held += bytes + PIPELINE_BYTES;
+        if self.held >= BATCH_BYTES { self.take_turns(stage) } else { Ok(()) }
     }
 
     /// What each setting took, by its number, and what they are set against.
-    pub(crate) fn finish(mut self, stage: &mut Stage<'_>) -> (Vec<(usize, Timed)>, Yardsticks) {
-        self.take_turns(stage);
-        (self.timed, yardsticks(&self.batches, self.bare_size))
+    ///
+    /// # Errors
+    /// As [`Timing::add`].
+    pub(crate) fn finish(mut self, stage: &mut Stage<'_>) -> Result<(Vec<(usize, Timed)>, Yardsticks), Error> {
+        if !self.waiting.is_empty() {
+            self.take_turns(stage)?;
+        }
+        Ok((self.timed, yardsticks(&self.batches, self.bare_size)))
     }
 
-    fn take_turns(&mut self, stage: &mut Stage<'_>) {
-        if self.waiting.is_empty() {
-            return;
-        }
-        let (floor, bare) = (&mut self.floor, &mut self.bare);
-        floor.frames = Frames::default();
-        bare.frames = Frames::default();
-        // Nobody has seen the yardsticks draw before.
-        if self.batches.is_empty() {
-            floor.warm_up(stage, self.light, self.camera);
-            bare.warm_up(stage, self.light, self.camera);
-        }
+    fn take_turns(&mut self, stage: &mut Stage<'_>) -> Result<(), Error> {
+        let gpu = stage.gpu();
+        let mut floor = Runner::new(Actor::new(gpu, baseline::floor(gpu)));
+        let mut bare = Runner::new(Actor::new(gpu, baseline::bare_minimum(gpu, self.bare_size, 1)?));
+        floor.warm_up(stage, self.light, self.camera);
+        bare.warm_up(stage, self.light, self.camera);
         for _ in 0..self.frames {
             let settings = self.waiting.iter_mut().map(|(_, runner)| runner);
-            for runner in [&mut *floor, &mut *bare].into_iter().chain(settings) {
+            for runner in [&mut floor, &mut bare].into_iter().chain(settings) {
                 runner.turn(stage, self.light, self.camera);
             }
         }
@@ -116,6 +109,8 @@ impl<'a> Timing<'a> {
         let timed = self.waiting.drain(..).map(|(number, runner)| (number, runner.timed(clock, floor_ms)));
         self.timed.extend(timed);
         self.held = 0;
+        stage.renew();
+        Ok(())
     }
 }
 
