@@ -1,7 +1,8 @@
 //! The device: an adapter of ours, or a host's own.
 
 use crate::error::{Error, nearest};
-use std::sync::{Arc, Mutex};
+use crate::snapping;
+use std::sync::{Arc, Mutex, OnceLock};
 use wgpu::util::DeviceExt;
 
 /// A device with its queue, cheap to clone.
@@ -13,6 +14,7 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     adapter: AdapterSummary,
     trouble: Arc<Mutex<Option<Error>>>,
+    snapping: Arc<OnceLock<f32>>,
 }
 
 /// What a user wants to know of an adapter.
@@ -107,7 +109,7 @@ impl Gpu {
     /// A host's own device. The host keeps its error and device-lost handlers.
     pub fn new(device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let adapter = AdapterSummary::of(&device.adapter_info());
-        Self { device, queue, adapter, trouble: Arc::default() }
+        Self { device, queue, adapter, trouble: Arc::default(), snapping: Arc::default() }
     }
 
     /// The adapter in use.
@@ -118,6 +120,14 @@ impl Gpu {
     /// True where the device has all of `features`.
     pub fn has(&self, features: wgpu::Features) -> bool {
         self.device.features().contains(features)
+    }
+
+    /// Pixels by which the rasteriser may shift a surface, since it snaps corners of triangles:
+    /// measured once, which waits for the device, or what every device keeps to where it can't be
+    /// measured.
+    pub(crate) fn snapping(&self) -> f32 {
+        let measured = || snapping::measured(self).unwrap_or(snapping::GUARANTEED);
+        *self.snapping.get_or_init(measured)
     }
 
     /// The first error that the driver reported out of order, if any; a lost device stays lost.

@@ -56,6 +56,7 @@ mod registry;
 mod settings;
 mod shader;
 mod silhouettes;
+mod snapping;
 mod technique;
 pub mod techniques;
 mod view;

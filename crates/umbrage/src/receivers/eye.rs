@@ -14,6 +14,11 @@ shader_struct! {
         background_depth: f32,
         /// The largest |x| + |y| + |z| of `eye_from_ndc` in the picture, before the division by w.
         reach: f32,
+        /// How far the rasteriser that made the depth buffer may shift surfaces, in normalised device
+        /// coordinates.
+        snapped: [f32; 2],
+        /// Not read.
+        pad: [f32; 2],
     }
 }
 
@@ -29,6 +34,8 @@ impl Eye {
             eye_from_ndc: eye_from_ndc.as_mat4().to_cols_array_2d(),
             ndc_from_pixel: [2.0 / width as f32, -2.0 / height as f32],
             background_depth: view.camera.background_depth(),
+            snapped: [width, height].map(|pixels| 2.0 * view.receivers.snapping / pixels as f32),
+            pad: [0.0; 2],
         }
     }
 }

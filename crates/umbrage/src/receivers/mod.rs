@@ -26,6 +26,8 @@ pub struct Receivers {
     pub(crate) bind_group: wgpu::BindGroup,
     pub(crate) depth: wgpu::TextureView,
     pub(crate) stencil: Option<wgpu::TextureView>,
+    /// Pixels by which the rasteriser may have shifted surfaces.
+    pub(crate) snapping: f32,
 }
 
 impl Receivers {
@@ -41,7 +43,14 @@ impl Receivers {
         };
         let views = [depth, normal_view].map(wgpu::BindingResource::TextureView);
         let bind_group = bind(gpu, "receivers", &Self::layout(gpu), &views);
-        Self { size, has_normals: normal.is_some(), bind_group, depth: depth.clone(), stencil: None }
+        Self {
+            size,
+            has_normals: normal.is_some(),
+            bind_group,
+            depth: depth.clone(),
+            stencil: None,
+            snapping: gpu.snapping(),
+        }
     }
 
     /// Lends the depth buffer's stencil: `view` is of the same texture with both aspects.

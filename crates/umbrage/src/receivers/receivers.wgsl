@@ -10,6 +10,10 @@ struct Eye {
     background_depth: f32,
     // Largest |x| + |y| + |z| of `eye_from_ndc` in the picture, before the division by w.
     reach: f32,
+    // How far the rasteriser that made the depth buffer may shift surfaces, in normalised device
+    // coordinates.
+    snapped: vec2f,
+    pad: vec2f,
 }
 
 @group(0) @binding(0) var receiver_depth: texture_depth_2d;
@@ -42,6 +46,13 @@ fn position_rounding(eye: Eye, depth: f32, inverse_w: f32) -> f32 {
     // A normal taken from neighbouring depths is off by their rounding, too.
     let step = select(9.6e-7, 1.2e-7, HAS_NORMALS);
     return step * eye.reach * inverse * (1.0 + depth * abs(eye.eye_from_ndc[2].w) * inverse);
+}
+
+// Metres times the length of `normal` that a position may be off its surface: rasterisers snap
+// corners of triangles, so that a pixel has the depth of its surface some part of a pixel aside.
+fn off_surface(eye: Eye, normal: vec3f, inverse_w: f32) -> f32 {
+    let m = eye.eye_from_ndc;
+    return dot(eye.snapped, abs(vec2f(dot(normal, m[0].xyz), dot(normal, m[1].xyz)) * inverse_w));
 }
 
 // From `here` to the neighbour along `step`, nothing where that is off the picture or shows no

@@ -189,6 +189,12 @@ impl<'a> Subject<'a> {
         share_of_least(&|share| self.texel_on_screen(at(share), fit)).map_or(horizon, at)
     }
 
+    /// The plane that most of what is seen lies in and that the light meets at more than a grazing
+    /// angle, its normal of unit length.
+    pub fn ground(&self) -> Option<DVec4> {
+        self.dominant_plane().filter(|plane| plane.dot(self.rays.light) > GRAZING)
+    }
+
     /// The plane that most of the places share.
     fn dominant_plane(&self) -> Option<DVec4> {
         let plane = |s: &Surface| s.normal.extend(-s.normal.dot(s.point));
@@ -202,6 +208,9 @@ impl<'a> Subject<'a> {
         self.places.iter().map(|p| (count(&p.surface), plane(&p.surface))).max_by_key(|(n, _)| *n).map(|(_, p)| p)
     }
 }
+
+/// Sine of the least angle between the ground and the light.
+const GRAZING: f64 = 0.1;
 
 /// Nearest distance along the view over the farthest one, at least.
 const NEAREST: f64 = 1e-4;

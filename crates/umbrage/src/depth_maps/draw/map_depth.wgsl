@@ -12,6 +12,8 @@ struct MapView {
     farthest: f32,
     // Distance of depth 1, metres.
     near: f32,
+    // Least |w| of a corner for each unit of |x| or |y|.
+    least_w: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> map_view: MapView;
@@ -22,8 +24,16 @@ struct Masked {
     @location(1) @interpolate(flat) material: u32,
 }
 
+// Corners level with the light are moved off its plane by less than the rounding of depths: some
+// rasterisers find what they draw of a triangle by the places of its corners, those behind the
+// light too, and can't hold one that is infinitely far away.
 fn map_position(instance: u32, position: vec3f) -> vec4f {
-    return map_view.clip_from_world * vec4f(world_from_mesh(instance, position), 1.0);
+    var at = map_view.clip_from_world * vec4f(world_from_mesh(instance, position), 1.0);
+    let least = map_view.least_w.x * max(abs(at.x), abs(at.y));
+    if abs(at.w) < least {
+        at.w = select(-least, least, at.w > 0.0);
+    }
+    return at;
 }
 
 @vertex

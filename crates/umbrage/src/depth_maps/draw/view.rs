@@ -14,6 +14,7 @@ shader_struct! {
         same: [f32; 2],
         farthest: f32,
         near: f32,
+        least_w: [f32; 4],
     }
 }
 
@@ -45,6 +46,18 @@ impl MapView {
             },
             farthest: FARTHEST as f32,
             near: near(view) as f32,
+            least_w: [least_w(view), 0.0, 0.0, 0.0],
         }
     }
+}
+
+/// Texels from the map's middle that a rasteriser surely holds: 32 bits with up to eight behind the
+/// point, and two to spare.
+const FARTHEST_TEXEL: f64 = (1 << 21) as f64;
+
+/// The least |w| of a corner as a share of its |x| or |y|. A corner level with the light has w = 0,
+/// and stands infinitely far away in the map.
+fn least_w(view: &LightView) -> f32 {
+    let is_divided = view.paraboloid.is_none() && view.clip_from_world.row(3).truncate() != DVec3::ZERO;
+    if is_divided { (f64::from(view.size) * 0.5 / FARTHEST_TEXEL) as f32 } else { 0.0 }
 }

@@ -112,8 +112,11 @@ impl Slopes {
 }
 
 /// How depth changes per metre along the light: perspective depth is near / distance, so its
-/// derivative is depth² / near; that of parallel depth is constant.
+/// derivative is depth² / near; that of parallel depth is constant, in warped views times w.
 fn per_metre(view: &LightView) -> f32 {
-    let change = if view.is_perspective() { 1.0 / near(view) } else { view.clip_from_world.row(2).truncate().length() };
-    change as f32
+    if view.is_perspective() {
+        return (1.0 / near(view)) as f32;
+    }
+    let [across, up, depth] = [0, 1, 2].map(|i| view.clip_from_world.row(i).truncate());
+    depth.dot(across.cross(up).normalize_or_zero()).abs() as f32
 }

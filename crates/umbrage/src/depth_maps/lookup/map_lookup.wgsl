@@ -264,14 +264,25 @@ fn point_by_matrix(pixel: Pixel, layer: u32) -> MapPoint {
     point.is_covered = is_in_front;
     // Positive where the surface faces the light; 0 where there is no normal or no view.
     point.is_own_shadow = surface.casts && is_in_front && point.across < 0.0;
-    let z = abs(point.depth);
     let metres = position_rounding(map.eye, pixel.depth, eye_inverse_w) + map.caster_rounding;
-    var per_metre = map.layers[layer].per_metre * select(1.0, z * z, PERSPECTIVE);
-    if WARPED {
-        per_metre = (per_metre + z * length(map.layers[layer].texel_w)) * point.inverse_w;
-    }
-    point.rounding = map.rounding.x * z + map.rounding.y + metres * per_metre;
+    point.rounding = depth_rounding(point, metres, off_surface(map.eye, surface.normal, eye_inverse_w));
     return point;
+}
+
+// How much depth may be off where positions are by `metres`, in each coordinate that the map's
+// matrix gives, and by `off` from the surface.
+fn depth_rounding(point: MapPoint, metres: f32, off: f32) -> f32 {
+    let z = abs(point.depth);
+    let layer = point.layer;
+    var per_metre = map.layers[layer].per_metre * select(1.0, z * z, PERSPECTIVE);
+    var in_each = per_metre;
+    if WARPED {
+        per_metre *= abs(point.inverse_w);
+        in_each = per_metre + z * length(map.layers[layer].texel_w) * abs(point.inverse_w);
+    }
+    // A surface seen edge-on is all off.
+    let shifted = min(off * per_metre, abs(point.across)) / max(abs(point.across), 1e-30);
+    return map.rounding.x * z + map.rounding.y + metres * in_each + shifted;
 }
 
 // Change of depth per texel. A plane seen edge-on has no slope to speak of; the largest that helps

@@ -9,9 +9,13 @@ override LEAST_VARIANCE: f32 = 1e-6;
 // Beyond this many standard deviations nothing of the receiver's own plane is in the filter.
 const EXTENT: f32 = 3.0;
 
+// In units of the larger of both: at the far end of the falling warp a variance is too small for a
+// normal number, and devices differ in whether there are others.
 fn bound(mean: f32, square: f32, warped: f32) -> f32 {
-    let variance = max(square - mean * mean, LEAST_VARIANCE * warped * warped);
-    return largest_share(mean, variance, warped);
+    let unit = 1.0 / max(abs(mean), abs(warped));
+    let m = mean * unit;
+    let w = warped * unit;
+    return largest_share(m, max(square * unit * unit - m * m, LEAST_VARIANCE * w * w), w);
 }
 
 // `variance` is the filter's. The mean of a slanted plane's falling warp is that of a point

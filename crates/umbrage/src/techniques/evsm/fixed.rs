@@ -22,13 +22,17 @@ pub(super) fn make(evsm: &Evsm, gpu: &Gpu, maps: &MapSetup) -> Result<MapTechniq
     let coding = if half { Coding::Half } else { Coding::Single };
     let channels = if evsm.components == Components::Two { 2 } else { 4 };
     let growth = evsm.growth(maps.size, if half { 5.54 } else { 42.0 });
-    let warps = [("GROWTH", growth), ("DECAY", growth)];
+    // Squares of the least warp times the least weight of a filter are still normal numbers of
+    // single precision then, and four squares of the largest are numbers.
+    let lift = if half { 0.0 } else { 1.5 };
+    let warps = [("GROWTH", growth), ("DECAY", growth), ("LIFT", lift)];
     let recipe = Recipe { passes: PASSES, channels, coding, constants: warps.to_vec() };
     let stage = MomentStage::new(gpu, maps.size, &evsm.filtering, &recipe);
     let reach = stage.reach();
     let constants = [
         warps[0],
         warps[1],
+        warps[2],
         ("COMPONENTS", f64::from(channels)),
         ("MIPS", f64::from(u8::from(evsm.filtering.mips))),
         ("BLEEDING", evsm.bleeding),

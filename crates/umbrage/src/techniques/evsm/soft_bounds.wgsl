@@ -10,6 +10,10 @@ fn depth_share(m: vec4f, receiver: f32) -> f32 {
 }
 
 fn warped_share(m: vec4f, receiver: f32) -> f32 {
+    // In units of the larger of both, as `bound` in `bounds.wgsl`.
     let warped = warp(receiver);
-    return largest_share(m.x, max(m.y - m.x * m.x, LEAST_VARIANCE * warped * warped), warped);
+    let unit = 1.0 / max(m.x, warped);
+    let mean = m.x * unit;
+    let own = warped * unit;
+    return largest_share(mean, max(m.y * unit * unit - mean * mean, LEAST_VARIANCE * own * own), own);
 }
