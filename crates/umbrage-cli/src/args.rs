@@ -1,5 +1,6 @@
 //! Arguments that several subcommands take, and how they are read.
 
+use crate::say;
 use anyhow::Result;
 use clap::Args;
 use std::path::PathBuf;
@@ -57,7 +58,7 @@ impl What {
 
 /// Says what its user should know of a choice.
 pub fn print_note(choice: &Choice) {
-    choice.note.iter().for_each(|note| eprintln!("note: {note}"));
+    choice.note.iter().for_each(|note| say::note(note));
 }
 
 /// A folder for traced references that can be written to.
@@ -111,7 +112,7 @@ pub fn scenes(asked: &[String], light: Option<usize>) -> Result<Vec<(Source, Vec
     for name in asked {
         let source = Source::open(name)?;
         let lights = source.lights(light)?;
-        source.notes.iter().for_each(|note| eprintln!("note: {name}: {note}"));
+        source.notes.iter().for_each(|note| say::note(&format!("{name}: {note}")));
         scenes.push((source, lights));
     }
     Ok(scenes)

@@ -1,8 +1,9 @@
 //! Progress bars on the terminal.
 
+use crate::say;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::Mutex;
-use umbrage_report::Progress;
+use umbrage_report::{Progress, printable};
 
 /// One bar on the standard error, where that is a terminal; nothing elsewhere.
 #[derive(Default)]
@@ -22,7 +23,7 @@ impl Bars {
 impl Progress for Bars {
     fn begin(&self, what: &str, steps: u64) {
         let style = ProgressStyle::with_template("{msg:48!} {bar:32} {percent:>3} % {elapsed:>4}");
-        let bar = ProgressBar::new(steps).with_message(what.to_string());
+        let bar = ProgressBar::new(steps).with_message(printable(what, 200).into_owned());
         let bar = match style {
             Ok(style) => bar.with_style(style),
             Err(_) => bar,
@@ -37,8 +38,8 @@ impl Progress for Bars {
 
     fn note(&self, text: &str) {
         self.with(|slot| match slot {
-            Some(bar) => bar.suspend(|| eprintln!("note: {text}")),
-            None => eprintln!("note: {text}"),
+            Some(bar) => bar.suspend(|| say::note(text)),
+            None => say::note(text),
         });
     }
 

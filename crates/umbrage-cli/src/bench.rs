@@ -4,10 +4,10 @@ use crate::{
     Context,
     args::{self, Adapter, Size},
     bars::Bars,
+    say,
 };
 use anyhow::Result;
 use clap::Args;
-use std::io::{Write, stdout};
 use umbrage_report::{Bench as Plan, CameraPath, Moving};
 
 /// Measures techniques: GPU time of each pass, frame, draws, triangles, memory, against the floor
@@ -84,12 +84,10 @@ impl Bench {
             command: context.line.clone(),
         };
         let report = plan.run(&gpu, &Bars::default())?;
-        let text = match (self.json, self.csv) {
-            (true, _) => report.json(),
-            (_, true) => report.csv(),
-            _ => report.tables(),
-        };
-        stdout().write_all(text.as_bytes())?;
-        Ok(())
+        match (self.json, self.csv) {
+            (true, _) => say::json(&report.json()),
+            (_, true) => say::text(&report.csv()),
+            _ => say::text(&report.tables()),
+        }
     }
 }

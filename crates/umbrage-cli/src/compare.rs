@@ -4,13 +4,11 @@ use crate::{
     Context,
     args::{self, Adapter, Size},
     bars::Bars,
+    say,
 };
 use anyhow::Result;
 use clap::Args;
-use std::{
-    io::{Write, stdout},
-    path::PathBuf,
-};
+use std::path::PathBuf;
 use umbrage_report::{Compare as Plan, Folder, tables};
 
 /// Scores techniques against ray-traced ground truth: a table, report.json and a page with pictures
@@ -71,9 +69,9 @@ impl Compare {
         let outcome = plan.run(&gpu, &Bars::default())?;
         outcome.write(&folder)?;
         if self.json {
-            stdout().write_all(outcome.json().as_bytes())?;
+            say::json(&outcome.json())?;
         } else {
-            writeln!(stdout(), "{}\nwrote {}", tables(&outcome.report), folder.path("index.html").display())?;
+            say::text(&format!("{}\nwrote {}\n", tables(&outcome.report), folder.path("index.html").display()))?;
         }
         Ok(())
     }

@@ -1,7 +1,8 @@
 //! Errors as users see them: one line, exit code 2.
 
+use crate::say;
 use clap::error::ErrorKind;
-use std::{io, process::ExitCode};
+use std::{io, io::Write, process::ExitCode};
 
 /// What a failed command ends with.
 const FAILED: u8 = 2;
@@ -14,10 +15,11 @@ pub fn usage(error: &clap::Error) -> ExitCode {
     );
     if help {
         // Nobody reads on: that is no failure of ours.
-        let _ = error.print();
-        return if error.use_stderr() { ExitCode::from(FAILED) } else { ExitCode::SUCCESS };
+        let is_printed = error.print().is_ok_and(|()| io::stdout().flush().is_ok());
+        let is_asked = is_printed && !error.use_stderr();
+        return if is_asked { ExitCode::SUCCESS } else { ExitCode::from(FAILED) };
     }
-    eprintln!("{}", one_line(&error.render().to_string()));
+    say::error(&one_line(&error.render().to_string()));
     ExitCode::from(FAILED)
 }
 
@@ -30,7 +32,7 @@ pub fn report(error: &anyhow::Error) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let text = format!("{error:#}");
-    eprintln!("error: {}", text.split_whitespace().collect::<Vec<_>>().join(" "));
+    say::error(&format!("error: {}", text.split_whitespace().collect::<Vec<_>>().join(" ")));
     ExitCode::from(FAILED)
 }
 

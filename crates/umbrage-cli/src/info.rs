@@ -1,9 +1,9 @@
 //! `umbrage info`: what is in a scene, and what is wrong with it.
 
+use crate::say;
 use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
-use std::io::{Write, stdout};
 use umbrage_core::mesh_check::{MeshReport, check_scene};
 use umbrage_core::{Instance, Light, Scene, glam::DVec3};
 use umbrage_report::Source;
@@ -29,8 +29,7 @@ impl Info {
         let source = Source::open(&self.scene)?;
         let report = check_scene(&source.scene);
         let text = if self.json { as_json(&source, &report) } else { as_text(&source, &report) };
-        stdout().write_all(text.as_bytes())?;
-        Ok(())
+        if self.json { say::json(&text) } else { say::text(&text) }
     }
 }
 

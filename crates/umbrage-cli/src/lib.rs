@@ -14,6 +14,7 @@ mod failure;
 mod info;
 mod list;
 mod render;
+mod say;
 mod sweep;
 
 use clap::{Parser, Subcommand};

@@ -1,10 +1,9 @@
 //! `umbrage list`: what there is.
 
-use crate::Context;
+use crate::{Context, say};
 use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
-use std::io::{Write, stdout};
 use umbrage::{AdapterSummary, Gpu, Group, Param, Registry};
 use umbrage_core::scenes::SCENES;
 use umbrage_report::{RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced};
@@ -36,8 +35,7 @@ impl List {
     pub fn run(self, context: &Context<'_>) -> Result<()> {
         let (entries, adapters) = (entries(context.registry), Gpu::adapters());
         let text = if self.json { as_json(&entries, &adapters) } else { as_text(&entries, &adapters) };
-        stdout().write_all(text.as_bytes())?;
-        Ok(())
+        if self.json { say::json(&text) } else { say::text(&text) }
     }
 }
 

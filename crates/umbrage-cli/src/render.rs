@@ -4,11 +4,12 @@ use crate::{
     Context,
     args::{self, Adapter, Size},
     bars::Bars,
+    say,
 };
 use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;
-use umbrage::Registry;
+use umbrage::{Registry, nearest};
 use umbrage_report::{Aov, Choice, LIGHT_SAMPLES, Method, Picture, RAY_TRACED, RayTraced, Shot, Source, check_file};
 
 /// Renders one picture of a scene with one technique
@@ -75,18 +76,28 @@ impl Render {
         }
         let source = Source::open(&self.scene)?;
         let lights = source.lights(self.light)?;
+        self.check_aov(&aov)?;
         let of_one_light = matches!(aov, Aov::Visibility | Aov::Scored | Aov::Inside(_));
         if of_one_light && lights.len() > 1 {
             let last = lights.len() - 1;
             bail!("{}: `{}` is of one light; say which with --light, 0 to {last}", source.asked, self.aov);
         }
-        source.notes.iter().for_each(|note| eprintln!("note: {note}"));
+        source.notes.iter().for_each(|note| say::note(note));
         let shot =
             Shot { source, lights, method, size: (self.size.width, self.size.height), aov, overlay: self.overlay };
         let gpu = if shot.needs_gpu() { Some(self.adapter.gpu()?) } else { None };
         let picture = shot.take(gpu.as_ref(), &Bars::default())?;
         picture.save(&self.output)?;
         Ok(())
+    }
+
+    /// Names the picture that was probably meant, before a light is asked for that it does not need.
+    fn check_aov(&self, aov: &Aov) -> Result<()> {
+        let Aov::Inside(name) = aov else { return Ok(()) };
+        match nearest(name, PICTURES.into_iter()) {
+            Some(meant) => bail!("there is no picture `{name}`; did you mean `{meant}`?"),
+            None => Ok(()),
+        }
     }
 
     fn method(&self, registry: &Registry) -> Result<Method> {
@@ -107,6 +118,9 @@ impl Render {
         Ok(Method::Technique(choice))
     }
 }
+
+/// Pictures of a scene, whatever the technique.
+const PICTURES: [&str; 5] = ["color", "visibility", "scored", "depth", "normal"];
 
 fn share(text: &str) -> Result<f32, String> {
     let share = text.parse().ok().filter(|s| (0.0..=1.0).contains(s));

@@ -4,13 +4,11 @@ use crate::{
     Context,
     args::{self, Adapter, Size},
     bars::Bars,
+    say,
 };
 use anyhow::Result;
 use clap::Args;
-use std::{
-    io::{Write, stdout},
-    path::PathBuf,
-};
+use std::path::PathBuf;
 use umbrage_report::{Folder, Sweep as Plan, Vary};
 
 /// Sets techniques under many settings against each other: the least error at equal cost, the least
@@ -84,9 +82,9 @@ impl Sweep {
         let outcome = plan.run(&gpu, &Bars::default())?;
         outcome.write(&folder)?;
         if self.json {
-            stdout().write_all(outcome.json().as_bytes())?;
+            say::json(&outcome.json())?;
         } else {
-            writeln!(stdout(), "{}\nwrote {}", outcome.tables(), folder.path("index.html").display())?;
+            say::text(&format!("{}\nwrote {}\n", outcome.tables(), folder.path("index.html").display()))?;
         }
         Ok(())
     }

@@ -45,7 +45,7 @@ pub use camera::{Camera, CameraView};
 pub use frustum::Frustum;
 pub use image::Image;
 pub use light::{Light, LightKind, LightKinds, LightShape};
-pub use material::{Material, Texture};
+pub use material::{Filter, Material, Sampling, Texture, Wrap};
 pub use mesh::Mesh;
 pub use rig::Rig;
 pub use scene::{Instance, Pose, Scene};

@@ -14,6 +14,9 @@ pub struct Mesh {
     pub normals: Vec<Vec3>,
     /// Texture coordinates, one a vertex, or none at all.
     pub uvs: Vec<Vec2>,
+    /// Opacity of each vertex, 0…1, or none at all: of a surface with an alpha mask it multiplies
+    /// that of the material.
+    pub opacities: Vec<f32>,
     /// What moves the vertices, where the mesh has joints; one entry a vertex, or none at all.
     pub weights: Weights,
     /// Three a triangle, counter-clockwise seen from the front.
@@ -117,6 +120,7 @@ impl Mesh {
                     mesh.positions.push(self.positions[v]);
                     mesh.normals.push(normal);
                     mesh.uvs.extend(self.uvs.get(v));
+                    mesh.opacities.extend(self.opacities.get(v));
                     if !self.weights.is_empty() {
                         mesh.weights.push(self.weights.of(v));
                     }
@@ -152,6 +156,11 @@ impl Mesh {
             self.weights.pad(self.positions.len());
             self.weights.append(&other.weights);
             self.weights.pad(self.positions.len() + other.positions.len());
+        }
+        if !self.opacities.is_empty() || !other.opacities.is_empty() {
+            self.opacities.resize(self.positions.len(), 1.0);
+            self.opacities.extend(&other.opacities);
+            self.opacities.resize(self.positions.len() + other.positions.len(), 1.0);
         }
         self.positions.extend(&other.positions);
         self.normals.extend(&other.normals);

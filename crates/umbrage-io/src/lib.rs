@@ -6,15 +6,20 @@
 mod defaults;
 mod error;
 mod gltf_file;
+mod limits;
 mod lines;
 mod model;
 mod mtl;
 mod obj;
 pub mod pictures;
+mod placed;
+mod polygon;
 mod scene_file;
 pub mod stored;
+mod text;
 
 pub use error::{Error, Place};
+pub use text::printable;
 
 use std::path::Path;
 use umbrage_core::Scene;
@@ -36,12 +41,9 @@ pub struct Opened {
 /// Whatever is wrong with the file or with one that it refers to; a scene without a triangle.
 pub fn open(path: &Path) -> Result<Opened, Error> {
     if extension(path) == "toml" {
-        let bytes = error::read(path)?;
-        let text = std::str::from_utf8(&bytes).map_err(|e| {
-            Error::new(path, format!("is not UTF-8 text: {e}")).remedy("save it as UTF-8, or name another file")
-        })?;
+        let text = text::decode(path, error::read(path)?)?;
         let dir = path.parent().unwrap_or(Path::new(""));
-        return scene_file::read(text, dir, path);
+        return scene_file::read(&text, dir, path);
     }
     let model = model::Model::read(path)?;
     let mut scene = Scene { name: title(path), ..Scene::default() };
@@ -67,11 +69,16 @@ pub fn open_str(toml_text: &str, base_dir: &Path, name: &str) -> Result<Opened, 
     scene_file::read(toml_text, base_dir, Path::new(name))
 }
 
+/// Characters of a scene's name.
+const LONGEST_TITLE: usize = 200;
+
 /// The last checks and additions, common to all kinds of file.
 fn finish(path: &Path, mut scene: Scene, mut notes: Vec<String>) -> Result<Opened, Error> {
     if scene.triangle_count() == 0 {
         return Err(Error::new(path, "there is no triangle in it").remedy("a scene needs at least one"));
     }
+    scene.name = printable(&scene.name, LONGEST_TITLE).into_owned();
+    placed::check(path, &scene)?;
     if scene.lights.is_empty() {
         defaults::add_light(&mut scene, &mut notes);
     }

@@ -1,6 +1,8 @@
 //! A model file as data: what OBJ and glTF give, before it is placed in a scene.
 
-use crate::{Error, extension, gltf_file, obj};
+use crate::error::{self, Error, shown};
+use crate::limits::LARGEST;
+use crate::{extension, gltf_file, obj};
 use glam::{DAffine3, Vec2, Vec3};
 use std::path::Path;
 use umbrage_core::rig::{Moment, Rig};
@@ -131,13 +133,14 @@ impl Model {
     /// What to tell a user who sees the model of this file at rest.
     pub fn rest_note(&self, path: &Path) -> Option<String> {
         let names: Vec<&str> = self.rig.animations.iter().map(|a| a.name.as_str()).collect();
-        let path = path.display();
+        let path = shown(path);
         match (names.as_slice(), self.rig.skins.is_empty()) {
             ([], true) => None,
             ([], false) => Some(format!("{path}: skinned meshes are shown in their rest pose")),
             ([first, ..], _) => Some(format!(
-                "{path}: it is shown at rest; `animation = \"{first}\"` in a scene file moves it (of {})",
-                names.join(", ")
+                "{path}: it is shown at rest; `animation = \"{}\"` in a scene file moves it (of {})",
+                error::line(first),
+                error::line(&names.join(", "))
             )),
         }
     }
@@ -146,10 +149,10 @@ impl Model {
 /// True where a vertex can be worked with: finite, and not so large that the differences and
 /// squares of `f32` arithmetic overflow.
 pub(crate) fn is_usable(position: Vec3) -> bool {
-    position.is_finite() && position.abs().max_element() <= 1e15
+    position.is_finite() && f64::from(position.abs().max_element()) <= LARGEST
 }
 
 /// True where a texture coordinate can be worked with.
 pub(crate) fn is_usable_uv(uv: Vec2) -> bool {
-    uv.is_finite() && uv.abs().max_element() <= 1e15
+    uv.is_finite() && f64::from(uv.abs().max_element()) <= LARGEST
 }

@@ -5,9 +5,10 @@
 //! below 1 is noted: shadows are those of the opaque surface. (Source: Wavefront, "MTL material
 //! format", version 4.2.)
 
-use crate::error::{self, Error, Place};
+use crate::error::{self, Error, Place, shown};
+use crate::limits::{Budget, MOST_PIXELS_IN_ALL};
 use crate::lines::{self, Line};
-use crate::pictures;
+use crate::{pictures, text};
 use glam::Vec3;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -17,7 +18,7 @@ use umbrage_core::{Material, Texture};
 const ALPHA_CUTOFF: f32 = 0.5;
 
 /// The materials of one or several libraries, with their pictures.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Library {
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
@@ -25,7 +26,21 @@ pub(crate) struct Library {
     pub by_name: HashMap<String, usize>,
     pub notes: Vec<String>,
     /// Index into `textures` by base-colour and mask file.
-    texture_by_files: HashMap<[Option<PathBuf>; 2], usize>,
+    texture_by_files: HashMap<[Option<PathBuf>; 2], Option<usize>>,
+    pixels: Budget,
+}
+
+impl Default for Library {
+    fn default() -> Self {
+        Self {
+            materials: Vec::new(),
+            textures: Vec::new(),
+            by_name: HashMap::new(),
+            notes: Vec::new(),
+            texture_by_files: HashMap::new(),
+            pixels: Budget::new(MOST_PIXELS_IN_ALL),
+        }
+    }
 }
 
 /// A material as written, before its pictures are read.
@@ -45,10 +60,10 @@ struct Entry {
 impl Library {
     /// Adds the materials of a file.
     pub fn read(&mut self, file: &Path) -> Result<(), Error> {
-        let bytes = error::read(file)?;
+        let text = text::decode_old(file, error::read(file)?)?;
         let dir = file.parent().unwrap_or(Path::new(""));
         let mut entries: Vec<Entry> = Vec::new();
-        lines::for_each(file, &String::from_utf8_lossy(&bytes), |line| {
+        lines::for_each(file, &text, |line| {
             if line.keyword == "newmtl" {
                 entries.push(Entry { name: line.rest.to_owned(), line: line.number, ..Entry::default() });
                 return Ok(());
@@ -76,7 +91,7 @@ impl Library {
         if let Some(opacity) = entry.opacity.filter(|o| *o < 1.0 && !masked) {
             self.notes.push(format!(
                 "material `{}` is {:.0} % opaque: its shadow is that of an opaque surface",
-                entry.name,
+                error::line(&entry.name),
                 opacity * 100.0
             ));
         }
@@ -93,22 +108,37 @@ impl Library {
     /// The picture of a material, with the mask of map_d as its alpha.
     fn texture(&mut self, entry: &Entry) -> Result<Option<usize>, Error> {
         let files = [entry.diffuse_map.clone(), entry.opacity_map.clone()];
-        if let Some(&index) = self.texture_by_files.get(&files) {
-            return Ok(Some(index));
+        if let Some(&known) = self.texture_by_files.get(&files) {
+            return Ok(known);
         }
-        let texture = match &files {
-            [None, None] => return Ok(None),
-            [Some(color), None] => pictures::load_texture(color)?,
-            [None, Some(mask)] => {
-                let mask = pictures::load_texture(mask)?;
+        let [color, mask] = &files;
+        let color = self.load(entry, color.as_deref(), "its colour and holes are left out")?;
+        let mask = self.load(entry, mask.as_deref(), "it has no holes")?;
+        let texture = match (color, mask) {
+            (color, None) => color,
+            (None, Some(mask)) => {
                 let white = Texture { rgba: vec![[255; 4]; mask.rgba.len()], ..mask.clone() };
-                with_mask(white, &mask)
+                Some(with_mask(white, &mask))
             }
-            [Some(color), Some(mask)] => with_mask(pictures::load_texture(color)?, &pictures::load_texture(mask)?),
+            (Some(color), Some(mask)) => Some(with_mask(color, &mask)),
         };
-        self.textures.push(texture);
-        self.texture_by_files.insert(files, self.textures.len() - 1);
-        Ok(Some(self.textures.len() - 1))
+        let index = texture.map(|texture| {
+            self.textures.push(texture);
+            self.textures.len() - 1
+        });
+        self.texture_by_files.insert(files, index);
+        Ok(index)
+    }
+
+    /// Reads a picture; a missing one is noted, with what follows from it.
+    fn load(&mut self, entry: &Entry, path: Option<&Path>, otherwise: &str) -> Result<Option<Texture>, Error> {
+        let Some(path) = path else { return Ok(None) };
+        if error::is_missing(path) {
+            let (name, path) = (error::line(&entry.name), shown(path));
+            self.notes.push(format!("material `{name}`: the picture `{path}` is missing: {otherwise}"));
+            return Ok(None);
+        }
+        pictures::load_within(path, &mut self.pixels).map(Some)
     }
 }
 
@@ -155,7 +185,7 @@ fn map_file(line: &Line<'_>, dir: &Path, notes: &mut Vec<String>) -> Result<Path
                 next(&mut rest);
             }
         }
-        notes.push(format!("{}:{}: `{option}` was left out", line.file.display(), line.number));
+        notes.push(format!("{}:{}: `{}` was left out", shown(line.file), line.number, error::line(&option)));
     }
     if rest.is_empty() {
         return Err(line.error(format!("`{}` names no file", line.keyword)).remedy("name one, or remove the line"));

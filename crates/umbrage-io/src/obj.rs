@@ -1,6 +1,6 @@
 //! Wavefront OBJ.
 //!
-//! Polygons are split as a fan from their first corner, and every triangle is kept as it is, also
+//! Polygons of any simple shape are cut into triangles, and every triangle is kept as it is, also
 //! degenerate and repeated ones. A mesh is made for every object and material. Faces without
 //! normals get smooth ones.
 //!
@@ -9,19 +9,31 @@
 //! only some have texture coordinates. (Source: Wavefront, "Advanced Visualizer manual", appendix
 //! B1.)
 
-use crate::error::{self, Error, Place};
+use crate::error::{self, Error, Place, shown};
+use crate::limits::{MOST_CORNERS, MOST_TRIANGLES};
 use crate::lines::{self, Line};
 use crate::model::{Hold, Model, Part, is_usable, is_usable_uv};
 use crate::mtl::Library;
+use crate::polygon::{Cut, Cutter};
+use crate::text;
 use glam::{Vec2, Vec3};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use umbrage_core::{Material, Mesh};
 
 /// Indices from 0 of position, texture coordinate and normal of a corner; `NONE` where it has none.
 type Corner = [u32; 3];
 const NONE: u32 = u32::MAX;
+
+/// Characters of a name that go into those of meshes.
+const LONGEST_NAME: usize = 60;
+
+/// Kinds of lines that are not read and that notes name one by one.
+const MOST_KEYWORDS: usize = 8;
+
+/// What helps against numbers beyond all bounds.
+const TOO_FAR: &str = "mend it, or export the file again in metres";
 
 /// A polygon as written.
 struct Face {
@@ -32,11 +44,33 @@ struct Face {
     corners: Range<usize>,
 }
 
-/// Faces of one object and material.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+/// Faces of one object and material, by the numbers of their names.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 struct Group {
-    object: String,
-    material: Option<String>,
+    object: Option<usize>,
+    material: Option<usize>,
+}
+
+/// Names, each once.
+#[derive(Default)]
+struct Names {
+    names: Vec<String>,
+    numbers: HashMap<String, usize>,
+}
+
+impl Names {
+    fn number(&mut self, name: &str) -> usize {
+        if let Some(number) = self.numbers.get(name) {
+            return *number;
+        }
+        self.numbers.insert(name.to_owned(), self.names.len());
+        self.names.push(name.to_owned());
+        self.names.len() - 1
+    }
+
+    fn get(&self, number: Option<usize>) -> Option<&str> {
+        number.and_then(|n| self.names.get(n)).map(String::as_str)
+    }
 }
 
 /// What the lines of the file say.
@@ -47,22 +81,26 @@ struct Contents {
     normals: Vec<Vec3>,
     corners: Vec<Corner>,
     faces: Vec<Face>,
+    names: Names,
     groups: Vec<Group>,
     index_of_group: HashMap<Group, usize>,
     /// The group that faces belong to from here on.
     current: Group,
     library: Library,
+    /// Libraries that were read.
+    libraries: HashSet<PathBuf>,
     /// Elements and keywords that were left out, with the line of the first one.
     left_out: HashMap<String, usize>,
 }
 
 /// Reads an OBJ file and the material libraries it names.
 pub(crate) fn read(file: &Path) -> Result<Model, Error> {
-    let bytes = error::read(file)?;
+    let text = text::decode_old(file, error::read(file)?)?;
     let mut contents = Contents::default();
-    lines::for_each(file, &String::from_utf8_lossy(&bytes), |line| contents.read_line(file, &line))?;
+    lines::for_each(file, &text, |line| contents.read_line(file, &line))?;
     contents.check_indices(file)?;
-    Ok(contents.into_model(file))
+    let triangles = contents.cut(file)?;
+    Ok(contents.into_model(file, &triangles))
 }
 
 impl Contents {
@@ -71,7 +109,7 @@ impl Contents {
             "v" => {
                 let position = Vec3::from(line.numbers::<3>()?);
                 if !is_usable(position) {
-                    return Err(line.error(format!("vertex {position} is too far away")));
+                    return Err(line.error(format!("vertex {position} is too far away")).remedy(TOO_FAR));
                 }
                 self.positions.push(position);
             }
@@ -81,20 +119,20 @@ impl Contents {
                 let v = if line.rest.contains(char::is_whitespace) { line.numbers::<2>()?[1] } else { 0.0 };
                 let uv = Vec2::new(u, 1.0 - v);
                 if !is_usable_uv(uv) {
-                    return Err(line.error(format!("texture coordinate {uv} is too large")));
+                    return Err(line.error(format!("texture coordinate {uv} is too large")).remedy(TOO_FAR));
                 }
                 self.uvs.push(uv);
             }
             "vn" => self.normals.push(Vec3::from(line.numbers()?)),
             "f" | "fo" => self.read_face(line)?,
-            "o" => self.current.object = line.rest.to_owned(),
-            "usemtl" => self.current.material = Some(line.rest.to_owned()),
+            "o" => self.current.object = Some(self.names.number(line.rest)),
+            "usemtl" => self.current.material = Some(self.names.number(line.rest)),
             "mtllib" => self.read_library(file, line)?,
             // Names of groups, smoothing, and display attributes, none of which changes the
             // surface.
             "g" | "s" | "mg" | "vp" | "bevel" | "c_interp" | "d_interp" | "lod" | "shadow_obj" | "trace_obj" => {}
             other => {
-                self.left_out.entry(other.to_owned()).or_insert(line.number);
+                self.left_out.entry(error::line(other)).or_insert(line.number);
             }
         }
         Ok(())
@@ -120,8 +158,12 @@ impl Contents {
                 .error(format!("a face needs 3 corners and has {count}"))
                 .remedy("the file may be cut off or damaged: export it again"));
         }
-        let group = *self.index_of_group.entry(self.current.clone()).or_insert_with(|| {
-            self.groups.push(self.current.clone());
+        if self.corners.len() as u64 > 3 * MOST_TRIANGLES {
+            let what = format!("has more than {MOST_TRIANGLES} triangles");
+            return Err(line.error(what).remedy("split the file, or export less detail"));
+        }
+        let group = *self.index_of_group.entry(self.current).or_insert_with(|| {
+            self.groups.push(self.current);
             self.groups.len() - 1
         });
         self.faces.push(Face { line: line.number, group, corners: start..self.corners.len() });
@@ -133,21 +175,23 @@ impl Contents {
     fn read_library(&mut self, file: &Path, line: &Line<'_>) -> Result<(), Error> {
         let dir = file.parent().unwrap_or(Path::new(""));
         let whole = dir.join(line.rest.replace('\\', "/"));
-        if whole.is_file() {
-            return self.library.read(&whole);
-        }
-        // Not one name with spaces: several names.
-        for name in line.rest.split_whitespace() {
+        // Where that is not one name with spaces, it is several names.
+        let names = if error::is_missing(&whole) { line.rest.split_whitespace().collect() } else { vec![line.rest] };
+        for name in names {
             let path = dir.join(name.replace('\\', "/"));
-            if path.is_file() {
-                self.library.read(&path)?;
-            } else {
-                self.library.notes.push(format!(
-                    "{}:{}: material library `{name}` is missing: default materials are used",
-                    file.display(),
-                    line.number
-                ));
+            if !self.libraries.insert(path.clone()) {
+                continue;
             }
+            if !error::is_missing(&path) {
+                self.library.read(&path)?;
+                continue;
+            }
+            self.library.notes.push(format!(
+                "{}:{}: material library `{}` is missing: default materials are used",
+                shown(file),
+                line.number,
+                error::line(name)
+            ));
         }
         Ok(())
     }
@@ -171,26 +215,56 @@ impl Contents {
         Ok(())
     }
 
-    fn into_model(mut self, file: &Path) -> Model {
-        let smooth = self.smooth_normals();
-        let mut model = Model::default();
-        let mut builders: Vec<MeshBuilder> = self.groups.iter().map(MeshBuilder::new).collect();
+    /// Cuts every face into triangles: of each its group, and its corners in [`Contents::corners`].
+    fn cut(&mut self, file: &Path) -> Result<Vec<(usize, [u32; 3])>, Error> {
+        let mut cutter = Cutter::default();
+        let mut all = Vec::with_capacity(self.corners.len() - 2 * self.faces.len());
+        let (mut points, mut triangles) = (Vec::new(), Vec::new());
+        let mut crossing: Option<(usize, usize)> = None;
         for face in &self.faces {
-            let corners = &self.corners[face.corners.clone()];
-            for pair in corners[1..].windows(2) {
-                for corner in [corners[0], pair[0], pair[1]] {
-                    builders[face.group].add(corner, &self, &smooth);
+            points.clear();
+            triangles.clear();
+            points.extend(self.corners[face.corners.clone()].iter().map(|c| self.positions[c[0] as usize]));
+            match cutter.cut(&points, &mut triangles) {
+                Cut::Right => {}
+                Cut::Crossing => crossing.get_or_insert((face.line, 0)).1 += 1,
+                Cut::TooLong => {
+                    let what =
+                        format!("a concave polygon has {} corners; at most {MOST_CORNERS} are cut", points.len());
+                    return Err(Error::new(file, what)
+                        .at(Place::Line(face.line, None))
+                        .remedy("export the model with triangles"));
                 }
             }
+            let start = face.corners.start as u32;
+            all.extend(triangles.iter().map(|t| (face.group, t.map(|i| start + i))));
+        }
+        if let Some((line, count)) = crossing {
+            let polygons =
+                if count == 1 { "a polygon crosses itself and was" } else { "polygons cross themselves and were" };
+            let number = if count == 1 { String::new() } else { format!("{count} ") };
+            self.library.notes.push(format!("{}:{line}: {number}{polygons} cut as a fan", shown(file)));
+        }
+        Ok(all)
+    }
+
+    fn into_model(mut self, file: &Path, triangles: &[(usize, [u32; 3])]) -> Model {
+        let smooth = self.smooth_normals(triangles);
+        let mut model = Model::default();
+        let mut builders: Vec<MeshBuilder> = self.groups.iter().map(|g| MeshBuilder::new(&self.names, g)).collect();
+        for (group, corners) in triangles {
+            corners.iter().for_each(|c| builders[*group].add(self.corners[*c as usize], &self, &smooth));
         }
         let default = self.library.materials.len();
         let mut uses_default = false;
         for (builder, group) in builders.into_iter().zip(&self.groups) {
-            let known = group.material.as_ref().and_then(|name| self.library.by_name.get(name)).copied();
-            if let (None, Some(name), false) = (known, &group.material, self.library.by_name.is_empty()) {
+            let material = self.names.get(group.material);
+            let known = material.and_then(|name| self.library.by_name.get(name)).copied();
+            if let (None, Some(name), false) = (known, material, self.library.by_name.is_empty()) {
                 self.library.notes.push(format!(
-                    "{}: material `{name}` is in none of its libraries: the default material is used",
-                    file.display()
+                    "{}: material `{}` is in none of its libraries: the default material is used",
+                    shown(file),
+                    error::line(name)
                 ));
             }
             uses_default |= known.is_none();
@@ -205,25 +279,26 @@ impl Contents {
         model.notes = self.library.notes;
         let mut left_out: Vec<_> = self.left_out.into_iter().collect();
         left_out.sort_by_key(|(_, line)| *line);
+        let more = left_out.len().saturating_sub(MOST_KEYWORDS);
         model.notes.extend(
             left_out
                 .into_iter()
-                .map(|(keyword, line)| format!("{}:{line}: `{keyword}` is not read and was left out", file.display())),
+                .take(MOST_KEYWORDS)
+                .map(|(keyword, line)| format!("{}:{line}: `{keyword}` is not read and was left out", shown(file))),
         );
+        if more > 0 {
+            model.notes.push(format!("{}: {more} more kinds of lines are not read and were left out", shown(file)));
+        }
         model
     }
 
     /// A normal for every position, from all faces around it: also where texture coordinates,
     /// objects or materials split the vertex. Empty where every corner has a normal of its own.
-    fn smooth_normals(&mut self) -> Vec<Vec3> {
+    fn smooth_normals(&mut self, triangles: &[(usize, [u32; 3])]) -> Vec<Vec3> {
         if self.corners.iter().all(|c| c[2] != NONE) {
             return Vec::new();
         }
-        let mut indices = Vec::with_capacity(self.corners.len());
-        for face in &self.faces {
-            let corners = &self.corners[face.corners.clone()];
-            indices.extend(corners[1..].windows(2).flat_map(|pair| [corners[0][0], pair[0][0], pair[1][0]]));
-        }
+        let indices = triangles.iter().flat_map(|(_, t)| t.map(|c| self.corners[c as usize][0])).collect();
         let mut mesh = Mesh { positions: std::mem::take(&mut self.positions), indices, ..Mesh::default() };
         mesh.generate_normals_if_absent();
         self.positions = mesh.positions;
@@ -238,9 +313,10 @@ struct MeshBuilder {
 }
 
 impl MeshBuilder {
-    fn new(group: &Group) -> Self {
-        let material = group.material.as_deref().unwrap_or("");
-        let name = format!("{} {material}", group.object).trim().to_owned();
+    fn new(names: &Names, group: &Group) -> Self {
+        let [object, material] = [group.object, group.material].map(|name| names.get(name).unwrap_or_default());
+        let [object, material] = [object, material].map(|name| text::printable(name, LONGEST_NAME));
+        let name = format!("{object} {material}").trim().to_owned();
         Self { mesh: Mesh { name, ..Mesh::default() }, vertex_of_corner: HashMap::new() }
     }
 

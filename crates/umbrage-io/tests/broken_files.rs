@@ -272,12 +272,15 @@ fn obj_errors_name_the_line() {
     ] {
         f.expect("a.obj", from, to, parts);
     }
-    std::fs::remove_file(f.path("leaf.png")).unwrap();
+    f.write("leaf.png", "no picture");
     let message = f.error("a.obj");
     assert!(
-        message.contains("a.mtl:1: material `leaf` names ") && message.contains("leaf.png: cannot be read"),
+        message.contains("a.mtl:1: material `leaf` names ") && message.contains("leaf.png: is not a picture"),
         "{message}"
     );
+    std::fs::remove_file(f.path("leaf.png")).unwrap();
+    let notes = open(&f.path("a.obj")).unwrap().notes;
+    assert!(notes[0].contains("material `leaf`: the picture") && notes[0].contains("is missing"), "{notes:?}");
     f.write("a.mtl", "newmtl leaf\nKd 1 x 1\n");
     assert!(f.error("a.obj").contains("a.mtl:2: `x` is not a number"));
     std::fs::remove_file(f.path("a.mtl")).unwrap();
@@ -318,7 +321,7 @@ fn gltf_errors_name_the_part() {
         ("\"uri\":\"a%20b.bin\"", "\"uri\":\"data:,x\"", &["buffer 0", "not in base64"]),
         ("\"uri\":\"a%20b.bin\"", "\"uri\":\"data:;base64,*\"", &["buffer 0", "not valid base64"]),
         ("\"uri\":\"a%20b.bin\",", "", &["buffer 0", "no binary part"]),
-        ("\"bufferView\":7,\"mimeType\":\"image/png\"", "\"uri\":\"b.png\"", &["image 0", "b.png: cannot be read"]),
+        ("\"bufferView\":7,\"mimeType\":\"image/png\"", "\"uri\":\".\"", &["image 0", "it is a folder"]),
         ("\"bufferView\":7,\"mimeType\":\"image/png\"", "\"bufferView\":6", &["image 0", "not a picture"]),
         ("\"bufferView\":7,\"mimeType\":\"image/png\"", "\"mimeType\":\"image/png\"", &["image 0", "neither"]),
         ("\"intensity\":9", "\"intensity\":-9", &["light 0", "negative"]),

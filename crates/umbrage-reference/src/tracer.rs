@@ -68,7 +68,7 @@ impl Tracer {
             return;
         }
         let mesh = &*scene.posed_mesh(instance);
-        let holes = self.cutouts.holes(scene, instance);
+        let holes = self.cutouts.holes(scene, instance, mesh);
         let number = self.instances.len() as u32;
         let Instance { casts, receives, model, .. } = *instance;
         self.instances.push(InstanceFlags { model: i32::try_from(model).unwrap_or(i32::MAX), casts, receives });
@@ -84,8 +84,8 @@ impl Tracer {
             let Some(mut triangle) = Triangle::new([a, b, c], self.instance_of.len() as u32, Triangle::OPAQUE) else {
                 continue;
             };
-            if let Holes::Texture(texture, cutoff) = holes {
-                triangle.cutout = self.cutouts.add(mesh, indices, texture, cutoff);
+            if let Holes::Some(mask) = holes {
+                triangle.cutout = self.cutouts.add(mesh, indices, mask);
             }
             self.instance_of.push(number);
             triangles.push(triangle);

@@ -17,7 +17,7 @@ struct Surface {
     @invariant @builtin(position) position: vec4f,
     @location(0) from_eye: vec3f,
     @location(1) normal: vec3f,
-    @location(2) uv: vec2f,
+    @location(2) uv: vec3f,
     @location(3) @interpolate(flat) instance: u32,
 }
 
@@ -36,7 +36,7 @@ fn vertex(
     @location(0) position: vec3f,
     @location(1) instance: u32,
     @location(2) normal: vec3f,
-    @location(3) uv: vec2f,
+    @location(3) uv: vec3f,
 ) -> Surface {
     let world = world_from_mesh(instance, position);
     return Surface(

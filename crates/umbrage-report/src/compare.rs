@@ -145,9 +145,11 @@ impl Outcome {
     /// # Errors
     /// A folder that can't be written to.
     pub fn write(&self, folder: &Folder) -> Result<(), Error> {
+        let earlier = folder.pictures_of("report.json");
         for (name, bytes) in &self.pictures.files {
             folder.write(name, bytes)?;
         }
+        folder.remove(earlier, |name| self.pictures.files.contains_key(name));
         folder.write("report.json", self.json().as_bytes())?;
         folder.write("index.html", html::page(&self.report, &self.pictures.files).as_bytes())
     }

@@ -58,6 +58,7 @@ pub use sweep::{
 };
 pub use table::tables;
 pub use truth::{Tracing, Truth};
+pub use umbrage_io::printable;
 
 /// Indented JSON with a line end. Plain data with text keys always has a JSON form.
 fn json(data: &impl serde::Serialize) -> String {

@@ -2,7 +2,9 @@
 //! renamed.
 
 use crate::error::Error;
+use serde_json::Value;
 use std::{
+    collections::BTreeSet,
     fs,
     path::{Path, PathBuf},
 };
@@ -31,6 +33,22 @@ impl Folder {
         self.path.join(name)
     }
 
+    /// The pictures that the record of an earlier run into this folder names.
+    pub(crate) fn pictures_of(&self, record: &str) -> BTreeSet<String> {
+        let text = fs::read(self.path(record)).unwrap_or_default();
+        let mut names = BTreeSet::new();
+        add_pictures(&serde_json::from_slice(&text).unwrap_or_default(), &mut names);
+        names
+    }
+
+    /// Removes pictures of an earlier run that this one has not written anew.
+    pub(crate) fn remove(&self, earlier: BTreeSet<String>, is_new: impl Fn(&str) -> bool) {
+        for name in earlier.iter().filter(|name| !is_new(name)) {
+            // One that is gone already, or stays, harms nobody.
+            let _ = fs::remove_file(self.path(name));
+        }
+    }
+
     /// Writes a file whole or not at all.
     ///
     /// # Errors
@@ -41,6 +59,21 @@ impl Folder {
             fs::create_dir_all(parent).map_err(|e| Error::output(parent, e))?;
         }
         Ok(save_bytes(&path, bytes)?)
+    }
+}
+
+/// Collects the names of files right below `pictures/`.
+fn add_pictures(value: &Value, names: &mut BTreeSet<String>) {
+    match value {
+        Value::String(name) => {
+            let plain = |rest: &str| !rest.contains(['/', '\\']);
+            if name.strip_prefix("pictures/").is_some_and(plain) {
+                names.insert(name.clone());
+            }
+        }
+        Value::Array(values) => values.iter().for_each(|v| add_pictures(v, names)),
+        Value::Object(values) => values.values().for_each(|v| add_pictures(v, names)),
+        _ => {}
     }
 }
 
@@ -87,6 +120,22 @@ mod tests {
         assert_eq!(fs::read(folder.path("pictures/x.png")).unwrap(), b"two");
         assert_eq!(fs::read_dir(folder.path("pictures")).unwrap().count(), 1);
         assert_eq!(fs::read_dir(place.path().join("a/b")).unwrap().count(), 1, "the probe stayed");
+    }
+
+    #[test]
+    fn pictures_of_an_earlier_run_go_and_others_stay() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = Folder::check(place.path()).unwrap();
+        for name in ["pictures/old.png", "pictures/both.png", "pictures/mine.png", "mine.png"] {
+            folder.write(name, b"").unwrap();
+        }
+        let record = r#"{"a": ["pictures/old.png", {"b": "pictures/both.png"}], "c": "pictures/../mine.png"}"#;
+        folder.write("report.json", record.as_bytes()).unwrap();
+        let earlier = folder.pictures_of("report.json");
+        folder.remove(earlier, |name| name == "pictures/both.png");
+        let is_there = |name: &str| folder.path(name).exists();
+        assert!(!is_there("pictures/old.png") && is_there("pictures/both.png"));
+        assert!(is_there("pictures/mine.png") && is_there("mine.png"));
     }
 
     #[test]

@@ -4,7 +4,9 @@ use crate::{
     column::{COLUMNS, Column, RADIANCE_COLUMNS},
     record::{LightRecord, Report, ResultRecord, Status},
 };
-use comfy_table::{Attribute, Cell, CellAlignment, ContentArrangement, LineStyle, Table, presets::NOTHING};
+use comfy_table::{
+    Attribute, Cell, CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, Width, presets::NOTHING,
+};
 use serde_json::Value;
 
 /// A table for each light of each scene; the best number of a column is bold.
@@ -59,13 +61,26 @@ fn light_table(light: &LightRecord) -> Table {
 /// An empty table with a line under its heading; all columns but the first are aligned to the
 /// right.
 pub(crate) fn plain<'a>(heading: impl Iterator<Item = &'a str>) -> Table {
+    let words: Vec<&str> = heading.collect();
     let mut table = Table::new();
     let style = NOTHING.header_separator(LineStyle::none().fill('─').junction('─'));
-    table.load_style(style).set_content_arrangement(ContentArrangement::Dynamic).set_header(heading);
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
+    table.load_style(style).set_content_arrangement(ContentArrangement::Dynamic).set_header(&words);
+    let longest: Vec<u16> = words.iter().map(|heading| longest_word(heading)).collect();
+    for (number, (column, longest)) in table.column_iter_mut().zip(longest).enumerate() {
+        // On a narrow terminal columns may break between words, but not within.
+        column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(longest + PADDING)));
+        if number > 0 {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
     }
     table
+}
+
+/// Spaces around the text of a column.
+const PADDING: u16 = 2;
+
+fn longest_word(heading: &str) -> u16 {
+    heading.split_whitespace().map(|word| word.chars().count() as u16).max().unwrap_or(0)
 }
 
 /// The best value of a column; `None` where there is no contest.
@@ -80,6 +95,16 @@ fn best(column: &Column, results: &[Value]) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::fixture::fixture;
+
+    #[test]
+    fn headings_of_narrow_tables_break_between_words() {
+        let mut table = plain(["technique", "mae", "visibility error", "interior"].into_iter());
+        table.add_row(["shadow-map size=512", "0.0123", "98.50", "not for line lights"]).set_width(40);
+        let text = table.to_string();
+        for word in ["technique", "mae", "visibility", "error", "interior"] {
+            assert!(text.contains(word), "{word} is broken in\n{text}");
+        }
+    }
 
     #[test]
     fn every_result_is_in_the_table_or_below_it() {

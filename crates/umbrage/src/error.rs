@@ -72,7 +72,7 @@ pub enum Error {
 }
 
 fn suggestion(nearest: &Option<String>) -> String {
-    nearest.as_ref().map_or(String::new(), |n| format!("; did you mean `{n}`?"))
+    nearest.as_ref().map_or("; `umbrage list` shows what there is".into(), |n| format!("; did you mean `{n}`?"))
 }
 
 /// The name among `known` nearest to `name`, where one is near enough to be meant: for "did you

@@ -51,6 +51,8 @@ fn names_that_are_not_known_come_with_the_nearest() {
     refused(&[], "render contact -o a.exr", &["a.exr", "end its name in .png"]);
     refused(&[], "compare contact --reference nowhere -o out", &["nowhere", "folder of the references"]);
     refused(&[], "rendr contact", &["rendr", "render"]);
+    refused(&[], "render contact --aov colour -o a.png", &["no picture `colour`", "did you mean `color`"]);
+    refused(&[], "render contact --technique ZZZZ -o a.png", &["unknown technique `ZZZZ`", "`umbrage list`"]);
 }
 
 #[test]

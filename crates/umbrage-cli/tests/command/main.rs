@@ -5,5 +5,6 @@ mod common;
 mod docs;
 mod listing;
 mod pictures;
+mod streams;
 mod sweep;
 mod truth_cache;

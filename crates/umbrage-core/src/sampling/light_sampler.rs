@@ -275,7 +275,7 @@ mod tests {
         // elsewhere.
         let mut rgba = vec![[0, 0, 0, 255]; 4];
         rgba[0] = [255; 4];
-        let texture = Texture { name: "corner".into(), width: 2, height: 2, rgba };
+        let texture = Texture { name: "corner".into(), width: 2, height: 2, rgba, sampling: Default::default() };
         let rect = LightShape::Rect {
             position: DVec3::ZERO,
             direction: DVec3::Z,

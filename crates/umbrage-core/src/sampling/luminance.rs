@@ -108,7 +108,8 @@ mod tests {
     use crate::sampling::lattice;
 
     fn texture(width: u32, height: u32, grey: &[u8]) -> Texture {
-        Texture { name: "test".into(), width, height, rgba: grey.iter().map(|&g| [g, g, g, 255]).collect() }
+        let rgba = grey.iter().map(|&g| [g, g, g, 255]).collect();
+        Texture { name: "test".into(), width, height, rgba, sampling: Default::default() }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Hills with trees.
 
 use super::{DETAIL, SceneEntry, kit::*, tree};
-use crate::material::Texture;
+use crate::material::{Sampling, Texture};
 use crate::{Camera, LightShape, Material, Mesh, Scene};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
@@ -186,7 +186,8 @@ fn ground_texture() -> Texture {
         let [r, g, b] = (grass + rng.range(-10.0, 10.0)).to_array().map(|c| c as u8);
         [r, g, b, 255]
     };
-    Texture { name: "grass".into(), width: SIZE, height: SIZE, rgba: (0..SIZE * SIZE).map(&mut texel).collect() }
+    let rgba = (0..SIZE * SIZE).map(&mut texel).collect();
+    Texture { name: "grass".into(), width: SIZE, height: SIZE, rgba, sampling: Sampling::default() }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::kit::Rng;
 use super::shapes;
-use crate::material::Texture;
+use crate::material::{Sampling, Texture};
 use crate::{Mesh, primitive};
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 use std::f64::consts::PI;
@@ -126,7 +126,7 @@ pub fn leaf_texture() -> Texture {
         let color = [74.0 * shade, 116.0 * shade, 44.0 * shade].map(|c| c as u8);
         canvas.leaf(place, rng.range(0.0, PI), rng.range(5.0, 8.5), color);
     }
-    Texture { name: "leaves".into(), width: SIZE, height: SIZE, rgba: canvas.rgba }
+    Texture { name: "leaves".into(), width: SIZE, height: SIZE, rgba: canvas.rgba, sampling: Sampling::default() }
 }
 
 struct Canvas {

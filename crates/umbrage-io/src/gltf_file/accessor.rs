@@ -1,19 +1,20 @@
 //! Accessors: typed arrays in buffers, every range checked.
 
-use super::buffers;
+use super::{buffers, document};
 use crate::error::{Error, Place};
+use crate::limits::{Budget, MOST_NUMBERS, MOST_ZEROS};
 use gltf::Accessor;
 use gltf::accessor::DataType;
 use gltf::buffer::View;
+use std::cell::RefCell;
 use std::path::Path;
-
-/// Larger arrays without bytes behind them are taken for damage.
-const MOST_ZEROS: usize = 1 << 26;
 
 /// Reads arrays out of the buffers of a file.
 pub(super) struct Accessors<'a> {
-    pub path: &'a Path,
-    pub buffers: &'a [Vec<u8>],
+    path: &'a Path,
+    buffers: &'a [Vec<u8>],
+    /// Numbers that may still be read: many primitives may name the same large array.
+    numbers: RefCell<Budget>,
 }
 
 /// One array, for errors.
@@ -31,6 +32,10 @@ impl Array<'_> {
 }
 
 impl<'a> Accessors<'a> {
+    pub fn new(path: &'a Path, buffers: &'a [Vec<u8>]) -> Self {
+        Self { path, buffers, numbers: RefCell::new(Budget::new(MOST_NUMBERS)) }
+    }
+
     /// Elements of `N` numbers as floats; whole numbers are normalised where the accessor says so.
     pub fn floats<const N: usize>(&self, accessor: &Accessor<'_>) -> Result<Vec<[f32; N]>, Error> {
         let (kind, normalized) = (accessor.data_type(), accessor.normalized());
@@ -61,6 +66,11 @@ impl<'a> Accessors<'a> {
             return Err(array.error(format!("has elements of {found} numbers instead of {N}")));
         }
         let (number_size, count) = (accessor.data_type().size(), accessor.count());
+        let needed = (count as u64).saturating_mul(N as u64);
+        if !self.numbers.borrow_mut().take(needed) {
+            let what = format!("its {count} elements are more than are read: {MOST_NUMBERS} numbers of a file");
+            return Err(array.error(what).remedy("export less detail, or several files"));
+        }
         let element = |bytes: &[u8]| {
             let mut numbers = [T::default(); N];
             for (to, from) in numbers.iter_mut().zip(bytes.chunks_exact(number_size)) {
@@ -75,7 +85,10 @@ impl<'a> Accessors<'a> {
                 slices.map(element).collect()
             }
             None if count <= MOST_ZEROS => vec![[T::default(); N]; count],
-            None => return Err(array.error(format!("holds {count} elements and no bytes"))),
+            None => {
+                let what = format!("holds {count} elements and no bytes; at most {MOST_ZEROS} are made up");
+                return Err(array.error(what));
+            }
         };
         if let Some(sparse) = accessor.sparse() {
             let (indices, values) = (sparse.indices(), sparse.values());
@@ -114,6 +127,10 @@ impl<'a> Accessors<'a> {
             Some(rest) => rest.checked_mul(stride).and_then(|n| n.checked_add(size)),
             None => Some(0),
         };
+        if let Some(extension) = compression(view) {
+            let what = format!("its numbers are stored by `{extension}`, which cannot be read");
+            return Err(array.error(what).remedy(document::remedy(extension)));
+        }
         let bytes = buffers::view(self.buffers, view)
             .ok_or_else(|| array.error(format!("buffer view {} does not lie within its buffer", view.index())))?;
         let end = length.and_then(|length| length.checked_add(offset));
@@ -122,6 +139,13 @@ impl<'a> Accessors<'a> {
             .ok_or_else(|| array.error(format!("{count} elements do not fit into buffer view {}", view.index())))?;
         Ok(bytes.chunks(stride))
     }
+}
+
+/// The extension that compresses a view, where there is nothing to fall back to.
+fn compression(view: &View<'_>) -> Option<&'static str> {
+    let extensions = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+    let found = extensions.into_iter().find(|name| view.extension_value(name).is_some())?;
+    buffers::is_empty_fallback(&view.buffer()).then_some(found)
 }
 
 /// A number of little-endian bytes; 0 for too few of them.

@@ -63,15 +63,15 @@ fn read_channel(
     };
     let ascending = times_s.is_sorted_by(|a, b| a < b);
     if !ascending || times_s.iter().any(|t| !(0.0..=LARGEST).contains(t)) {
-        return Err(file.error(part, "its times do not ascend from 0 or more").remedy("export the file again"));
+        return Err(file.error(part, "its times do not ascend from 0 or more"));
     }
     if values.len() != values_per_key * times_s.len() {
         let what =
             format!("has {} values for {} times; {values_per_key} for each are due", values.len(), times_s.len());
-        return Err(file.error(part, what).remedy("export the file again"));
+        return Err(file.error(part, what));
     }
     if values.iter().any(|v| !v.is_finite() || v.abs().max_element() > LARGEST) {
-        return Err(file.error(part, "has a value that is not finite or too large").remedy("export the file again"));
+        return Err(file.error(part, "has a value that is not finite or too large"));
     }
     Ok(Some(Channel { node, property, interpolation, times_s, values }))
 }

@@ -2,6 +2,7 @@
 
 use super::File;
 use crate::Error;
+use crate::limits::LARGEST;
 use glam::{DAffine3, DMat4, DQuat, DVec3, DVec4, Vec4};
 use gltf::scene::Transform;
 use gltf::{Document, Node};
@@ -69,7 +70,7 @@ impl Nodes {
         let mut stack: Vec<Node<'a>> = scene.nodes().collect();
         stack.reverse();
         while let Some(node) = stack.pop() {
-            if std::mem::replace(&mut seen[node.index()], true) {
+            if std::mem::replace(&mut seen[node.index()], true) || is_hidden(&node) {
                 continue;
             }
             let below = stack.len();
@@ -81,13 +82,21 @@ impl Nodes {
     }
 }
 
+/// True where `KHR_node_visibility` hides a node with all below it.
+fn is_hidden(node: &Node<'_>) -> bool {
+    node.extension_value("KHR_node_visibility").and_then(|e| e.get("visible")) == Some(&false.into())
+}
+
 /// A node's own transform, checked.
 fn local(file: &File<'_>, node: &Node<'_>) -> Result<Local, Error> {
     let columns = node.transform().matrix().map(Vec4::from);
-    let finite = columns.iter().all(|c| c.is_finite() && c.abs().max_element() < 1e15);
+    let finite = columns.iter().all(|c| c.is_finite() && f64::from(c.abs().max_element()) < LARGEST);
     let affine = columns.map(|c| c.w) == [0.0, 0.0, 0.0, 1.0];
     if !finite || !affine {
-        let what = if finite { "its matrix is not affine" } else { "its transform is not finite" };
+        let what = match finite {
+            true => "its matrix is not affine: its last row is not 0, 0, 0, 1",
+            false => "its transform is not finite or too large",
+        };
         return Err(file.error(format!("node {}", node.index()), what));
     }
     Ok(match node.transform() {

@@ -49,8 +49,11 @@ pub(super) fn read_light(
     let Some(light) = node.light() else { return Ok(()) };
     let part = format!("light {}", light.index());
     let position = model_from_node.translation;
-    let Some(direction) = direction(model_from_node, DVec3::NEG_Z) else {
-        return Err(file.error(part, format!("node {} is scaled to nothing: the light has no direction", node.index())));
+    let aimed = || {
+        direction(model_from_node, DVec3::NEG_Z).ok_or_else(|| {
+            let what = format!("node {} is scaled to nothing: the light has no direction", node.index());
+            file.error(&part, what).remedy("give the node a scale other than 0")
+        })
     };
     let (color, intensity) = (Vec3::from(light.color()), light.intensity() / PI);
     let range = light.range().map(f64::from);
@@ -59,13 +62,14 @@ pub(super) fn read_light(
         return Err(file.error(part, "its colour, intensity or range is negative or not finite"));
     }
     let shape = match light.kind() {
-        Kind::Directional => LightShape::Directional { direction, angle_deg: 0.0 },
+        Kind::Directional => LightShape::Directional { direction: aimed()?, angle_deg: 0.0 },
         Kind::Point => LightShape::Point { position },
         Kind::Spot { inner_cone_angle, outer_cone_angle } => {
             let [inner, outer] = [inner_cone_angle, outer_cone_angle].map(|a| f64::from(a).to_degrees());
             if !(0.0 <= inner && inner <= outer && outer > 0.0 && outer <= 90.1) {
                 return Err(file.error(part, format!("its cone has half angles of {inner} and {outer} degrees")));
             }
+            let direction = aimed()?;
             if outer > WIDEST_CONE {
                 file.note(format!("{part} shines into a half-space: its cone was narrowed to {WIDEST_CONE} degrees"));
             }

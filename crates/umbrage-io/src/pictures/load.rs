@@ -1,15 +1,12 @@
 //! Pictures from files.
 
 use crate::error::{self, Error};
+use crate::limits::{Budget, MOST_PIXELS};
 use exr::prelude::{AnyChannels, FlatSamples, MetaData, ReadChannels, ReadLayers};
-use image::{DynamicImage, ImageFormat, ImageReader};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 use std::io::Cursor;
 use std::path::Path;
-use umbrage_core::{Image, Texture};
-
-/// Larger EXR pictures are taken for damaged ones: their size is believed, and memory held, before
-/// their pixels are read.
-const MOST_PIXELS: usize = 1 << 28;
+use umbrage_core::{Image, Sampling, Texture};
 
 /// Reads a PNG or JPEG as a texture; 16-bit pictures lose their lower half.
 ///
@@ -24,10 +21,22 @@ pub fn load_texture(path: &Path) -> Result<Texture, Error> {
 /// # Errors
 /// As [`load_texture`].
 pub fn texture_from_bytes(name: &Path, bytes: &[u8]) -> Result<Texture, Error> {
-    let picture = decode(name, bytes, &[ImageFormat::Png, ImageFormat::Jpeg])?.into_rgba8();
+    texture_within(name, bytes, &mut Budget::new(MOST_PIXELS))
+}
+
+/// Reads a texture as [`load_texture`] does, as long as there are pixels left.
+pub(crate) fn load_within(path: &Path, pixels: &mut Budget) -> Result<Texture, Error> {
+    texture_within(path, &error::read(path)?, pixels)
+}
+
+/// The same from bytes.
+pub(crate) fn texture_within(name: &Path, bytes: &[u8], pixels: &mut Budget) -> Result<Texture, Error> {
+    let picture = decode(name, bytes, &[ImageFormat::Png, ImageFormat::Jpeg], pixels)?.into_rgba8();
     let (width, height) = picture.dimensions();
-    let rgba = picture.pixels().map(|p| p.0).collect();
-    Ok(Texture { name: name.display().to_string(), width, height, rgba })
+    // In place, where the memory allows it.
+    let rgba = bytemuck::allocation::try_cast_vec(picture.into_raw())
+        .unwrap_or_else(|(_, bytes)| bytes.as_chunks::<4>().0.to_vec());
+    Ok(Texture { name: name.display().to_string(), width, height, rgba, sampling: Sampling::default() })
 }
 
 /// Reads a grey picture: an 8-bit or 16-bit PNG as 0…1, or an EXR with a channel `V`, `Y` or `Z`,
@@ -40,7 +49,7 @@ pub fn load_grey(path: &Path) -> Result<Image<f32>, Error> {
     if image::guess_format(&bytes).ok() == Some(ImageFormat::OpenExr) {
         return Exr::decode(path, &bytes)?.grey(path);
     }
-    let (width, height, data) = match decode(path, &bytes, &[ImageFormat::Png])? {
+    let (width, height, data) = match decode(path, &bytes, &[ImageFormat::Png], &mut Budget::new(MOST_PIXELS))? {
         DynamicImage::ImageLuma8(p) => (p.width(), p.height(), p.iter().map(|v| f32::from(*v) / 255.0).collect()),
         DynamicImage::ImageLuma16(p) => (p.width(), p.height(), p.iter().map(|v| f32::from(*v) / 65535.0).collect()),
         _ => return Err(Error::new(path, "is a picture in colour").remedy("a grey one is needed, 8 or 16 bits")),
@@ -65,25 +74,36 @@ pub fn load_rgb(path: &Path) -> Result<Image<[f32; 3]>, Error> {
     if image::guess_format(&bytes).ok() == Some(ImageFormat::OpenExr) {
         return Exr::decode(path, &bytes)?.rgb(path);
     }
-    let picture = decode(path, &bytes, &[ImageFormat::Hdr])?.into_rgb32f();
+    let picture = decode(path, &bytes, &[ImageFormat::Hdr], &mut Budget::new(MOST_PIXELS))?.into_rgb32f();
     let (width, height) = picture.dimensions();
     Ok(Image { width, height, data: picture.pixels().map(|p| p.0).collect() })
 }
 
-/// Decodes a picture of one of the `formats`, told by its first bytes.
-fn decode(name: &Path, bytes: &[u8], formats: &[ImageFormat]) -> Result<DynamicImage, Error> {
+/// Decodes a picture of one of the `formats`, told by its first bytes. Its size is believed, and
+/// memory taken, only if that many `pixels` are left.
+fn decode(name: &Path, bytes: &[u8], formats: &[ImageFormat], pixels: &mut Budget) -> Result<DynamicImage, Error> {
     let names: Vec<&str> = formats.iter().flat_map(|f| f.extensions_str().first()).copied().collect();
     let format = image::guess_format(bytes).ok().filter(|f| formats.contains(f)).ok_or_else(|| {
         Error::new(name, "is not a picture of a kind that can be read here")
             .remedy(format!("such are: {}", names.join(", ")))
     })?;
-    let picture = ImageReader::with_format(Cursor::new(bytes), format)
-        .decode()
-        .map_err(|e| Error::new(name, format!("is damaged or cut off: {e}")).remedy("export it again"))?;
-    if picture.width() == 0 || picture.height() == 0 {
-        return Err(Error::new(name, "has no pixels"));
+    let damaged =
+        |e: image::ImageError| Error::new(name, format!("is damaged or cut off: {e}")).remedy("export it again");
+    let decoder = ImageReader::with_format(Cursor::new(bytes), format).into_decoder().map_err(damaged)?;
+    let (width, height) = decoder.dimensions();
+    if width == 0 || height == 0 {
+        return Err(Error::new(name, "has no pixels").remedy("export it again"));
     }
-    Ok(picture)
+    let count = u64::from(width) * u64::from(height);
+    if count > MOST_PIXELS || !pixels.take(count) {
+        return Err(too_large(name, width as usize, height as usize));
+    }
+    DynamicImage::from_decoder(decoder).map_err(damaged)
+}
+
+fn too_large(name: &Path, width: usize, height: usize) -> Error {
+    let what = format!("is too large with {width} × {height} pixels: of a picture {MOST_PIXELS} are read");
+    Error::new(name, format!("{what}, of all of a model 4 times as many")).remedy("scale it down")
 }
 
 /// An EXR with all channels of its first layer.
@@ -100,8 +120,12 @@ impl Exr {
         let meta = MetaData::read_from_buffered(bytes, false).map_err(|e| damaged(e.to_string()))?;
         for header in &meta.headers {
             let [width, height] = [header.layer_size.width(), header.layer_size.height()];
-            if width == 0 || height == 0 || width.saturating_mul(height) > MOST_PIXELS {
+            if width == 0 || height == 0 {
                 return Err(damaged(format!("its size is {width} × {height}")));
+            }
+            let values = (width as u64).saturating_mul(height as u64).saturating_mul(header.channels.list.len() as u64);
+            if values > 4 * MOST_PIXELS {
+                return Err(too_large(path, width, height));
             }
         }
         let layer = exr::prelude::read()
@@ -129,7 +153,7 @@ impl Exr {
 
     fn missing(&self, path: &Path, wanted: &str) -> Error {
         let names: Vec<&str> = self.channels.iter().map(|(n, _)| n.as_str()).collect();
-        Error::new(path, format!("has no channel {wanted} but {}", names.join(", ")))
+        Error::new(path, format!("has no channel {wanted} but {}", names.join(", "))).remedy("name another picture")
     }
 
     fn grey(&self, path: &Path) -> Result<Image<f32>, Error> {

@@ -14,4 +14,5 @@ mod load;
 mod save;
 
 pub use load::{load_grey, load_mask, load_rgb, load_texture, texture_from_bytes};
+pub(crate) use load::{load_within, texture_within};
 pub use save::{PngPixel, png_bytes, save_bytes, save_exr, save_exr_rgb, save_grey16, save_png};

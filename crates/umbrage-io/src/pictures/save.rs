@@ -5,7 +5,7 @@ use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Layer, LayerA
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use std::io::{Cursor, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use umbrage_core::Image;
 
 mod sealed {
@@ -126,11 +126,20 @@ fn save_channels(path: &Path, (width, height): (u32, u32), channels: Vec<(&str, 
 }
 
 /// Writes a file as a whole: into a temporary file beside it, which then takes its name. Whatever
-/// goes wrong, a file that was there before is still there.
+/// goes wrong, a file that was there before is still there. A symbolic link stays, and the file that
+/// it names is written; what is a device or a pipe is written into.
 ///
 /// # Errors
 /// A folder that is missing or cannot be written to, a full disk.
 pub fn save_bytes(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let failed = |e: std::io::Error| {
+        Error::new(path, format!("cannot be written: {e}")).remedy("check the path, its permissions and the disk")
+    };
+    let target = behind_links(path).map_err(failed)?;
+    if target.metadata().is_ok_and(|about| !about.is_file() && !about.is_dir()) {
+        return std::fs::write(&target, bytes).map_err(failed);
+    }
+    let path = target.as_path();
     let dir = path.parent().filter(|d| !d.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if !dir.is_dir() {
         let what = format!("cannot be written: there is no folder `{}`", dir.display());
@@ -150,10 +159,23 @@ pub fn save_bytes(path: &Path, bytes: &[u8]) -> Result<(), Error> {
         file.persist(path).map_err(|e| e.error)?;
         Ok(())
     };
-    write().map_err(|e: std::io::Error| {
-        Error::new(path, format!("cannot be written: {e}")).remedy("check the path, its permissions and the disk")
-    })
+    write().map_err(failed)
 }
+
+/// The file that a chain of symbolic links leads to; it need not be there.
+fn behind_links(path: &Path) -> std::io::Result<PathBuf> {
+    let mut path = path.to_path_buf();
+    for _ in 0..MOST_LINKS {
+        match std::fs::read_link(&path) {
+            Ok(next) => path = path.parent().unwrap_or(Path::new("")).join(next),
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(std::io::Error::other("symbolic links lead around in a circle"))
+}
+
+/// Links in a chain; more go around in a circle.
+const MOST_LINKS: usize = 40;
 
 fn check_size<T>(path: &Path, image: &Image<T>) -> Result<(), Error> {
     let (width, height) = image.size();
@@ -211,6 +233,29 @@ mod tests {
         let nowhere = dir.path().join("no/a.png");
         assert!(message(save_png(&nowhere, &Image::filled(1, 1, 0u8))).contains("there is no folder"));
         assert!(message(save_bytes(dir.path(), b"x")).contains("cannot be written"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_stay_links_and_devices_devices() {
+        use std::os::unix::fs::symlink;
+        let dir = tempfile::tempdir().unwrap();
+        let path = |name: &str| dir.path().join(name);
+        std::fs::create_dir(path("far")).unwrap();
+        symlink("link", path("chain")).unwrap();
+        symlink("far/file", path("link")).unwrap();
+        for text in [b"one", b"two"] {
+            save_bytes(&path("chain"), text).unwrap();
+            assert_eq!(std::fs::read(path("far/file")).unwrap(), text);
+        }
+        assert!(path("chain").is_symlink() && path("link").is_symlink());
+        symlink("b", path("a")).unwrap();
+        symlink("a", path("b")).unwrap();
+        assert!(save_bytes(&path("a"), b"x").unwrap_err().to_string().contains("circle"));
+        symlink("/dev/null", path("null")).unwrap();
+        save_bytes(&path("null"), b"x").unwrap();
+        let error = save_bytes(Path::new("/dev/full"), b"x").unwrap_err().to_string();
+        assert!(error.contains("/dev/full: cannot be written") && Path::new("/dev/full").exists(), "{error}");
     }
 
     #[cfg(unix)]

@@ -1,6 +1,6 @@
 //! `[[light]]`.
 
-use super::reader::{Table, Value};
+use super::reader::{Table, Value, is_positive};
 use crate::{Error, pictures};
 use glam::{DMat3, DVec3};
 use std::path::Path;
@@ -34,8 +34,10 @@ pub(super) fn read(scene: &mut Scene, dir: &Path, table: &Table<'_>) -> Result<L
         intensity: table.get_or("intensity", default.intensity, |v| v.not_negative().map(|i| i as f32))?,
         attenuation: table.get_or("attenuation", default.attenuation, |v| {
             let attenuation = v.color()?;
-            let falls = attenuation.max_element() > 0.0;
-            if falls { Ok(attenuation) } else { Err(v.error("must not be all 0: the light would be infinite")) }
+            let falls = is_positive(attenuation.max_element().into());
+            let error =
+                || v.error("must not be all 0: the light would be infinite").remedy("[1, 0, 0] is no falling off");
+            if falls { Ok(attenuation) } else { Err(error()) }
         })?,
         range: table.get("range").map(|v| v.positive()).transpose()?,
         casts: table.get_or("casts", default.casts, Value::bool)?,

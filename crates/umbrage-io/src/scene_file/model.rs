@@ -1,8 +1,9 @@
 //! `[[model]]`: a model file or a primitive, placed.
 
 use super::light::rotation;
-use super::reader::{Table, Value};
-use crate::Error;
+use super::reader::{Table, Value, is_positive};
+use crate::error::{Error, shown};
+use crate::limits::{Budget, MOST_INSTANCES, MOST_TRIANGLES};
 use crate::model::{Bases, Model, Placement};
 use glam::{DAffine3, DMat3, DVec3};
 use std::collections::HashMap;
@@ -47,12 +48,20 @@ pub(super) struct Models<'a> {
     /// Materials of the scene by the bits of their numbers.
     materials: HashMap<[u32; 8], usize>,
     notes: Vec<String>,
+    triangles: Budget,
 }
 
 impl<'a> Models<'a> {
     /// Paths are relative to `dir`.
     pub fn new(dir: &'a Path) -> Self {
-        Self { dir, files: HashMap::new(), shapes: HashMap::new(), materials: HashMap::new(), notes: Vec::new() }
+        Self {
+            dir,
+            files: HashMap::new(),
+            shapes: HashMap::new(),
+            materials: HashMap::new(),
+            notes: Vec::new(),
+            triangles: Budget::new(MOST_TRIANGLES),
+        }
     }
 
     /// What the model files had to note.
@@ -80,10 +89,17 @@ impl<'a> Models<'a> {
                 .transpose()?
                 .map(|m| self.material(scene, m)),
         };
+        if scene.instances.len() > MOST_INSTANCES {
+            let error = table.error(format!("the scene has more than {MOST_INSTANCES} instances before it"));
+            return Err(error.remedy("join some of them in one model"));
+        }
         match (path, primitive) {
             (Some(path), None) => self.place_file(scene, &path, table, placement),
             (None, Some(primitive)) => {
                 let (shape, size) = read_primitive(table, primitive.string()?)?;
+                if !self.shapes.contains_key(&shape) && !self.triangles.take(shape.most_triangles()) {
+                    return Err(too_many(&primitive));
+                }
                 placement.world_from_model *= DAffine3::from_scale(size);
                 self.place_primitive(scene, shape, &placement);
                 Ok(())
@@ -131,10 +147,14 @@ impl<'a> Models<'a> {
         let key = file.canonicalize().unwrap_or_else(|_| file.clone());
         if !self.files.contains_key(&key) {
             let model = Model::read(&file).map_err(|e| path.error(format!("names {e}")))?;
+            let count = model.meshes.iter().map(|m| m.triangle_count() as u64).sum();
+            if !self.triangles.take(count) {
+                return Err(too_many(path));
+            }
             let bases = model.add_to(scene);
             self.notes.extend_from_slice(&model.notes);
             if model.camera.is_some() || !model.lights.is_empty() {
-                let title = file.display();
+                let title = shown(&file);
                 self.notes.push(format!("{title}: its camera and lights are not used: the scene file says both"));
             }
             self.files.insert(key.clone(), (model, bases));
@@ -170,7 +190,20 @@ fn read_moment(table: &Table<'_>, model: &Model) -> Result<Option<Moment>, Error
     Ok(Some(Moment { animation, time_s: table.get_or("time", 0.0, Value::number)? }))
 }
 
+fn too_many(value: &Value<'_>) -> Error {
+    let error = value.error(format!("brings the scene to more than {MOST_TRIANGLES} triangles of its own"));
+    error.remedy("lower its segments or detail; the same file or shape may be placed many times")
+}
+
 impl Shape {
+    fn most_triangles(self) -> u64 {
+        match self {
+            Self::Plane | Self::Box => 12,
+            Self::Sphere([a, b]) | Self::Torus(_, [a, b]) => 2 * u64::from(a) * u64::from(b),
+            Self::Cylinder([a, b]) | Self::Cone([a, b]) => 2 * u64::from(a) * (u64::from(b) + 1),
+        }
+    }
+
     fn mesh(self) -> Mesh {
         match self {
             Self::Plane => primitive::plane(),
@@ -226,8 +259,8 @@ fn transform(table: &Table<'_>) -> Result<DAffine3, Error> {
     let rotate = table.get_or("rotate", DVec3::ZERO, Value::vec3)?;
     let scale = table.get_or("scale", DVec3::ONE, |v| {
         let scale = if v.is_list() { v.vec3()? } else { DVec3::splat(v.number()?) };
-        let flat = scale.abs().min_element() == 0.0;
-        if flat { Err(v.error(format!("must not be 0: {scale}"))) } else { Ok(scale) }
+        let flat = !is_positive(scale.abs().min_element());
+        if flat { Err(v.error(format!("must not be 0: {scale}")).remedy("remove it, or the model")) } else { Ok(scale) }
     })?;
     Ok(DAffine3::from_mat3_translation(rotation(rotate) * DMat3::from_diagonal(scale), translate))
 }

@@ -1,6 +1,7 @@
 //! Typed access to TOML that knows where everything stands, so that every error names line and key.
 
 use crate::error::{Error, Place};
+use crate::limits::{LARGEST, SMALLEST};
 use glam::{DVec2, DVec3, Vec3};
 use std::ops::Range;
 use std::path::Path;
@@ -160,7 +161,11 @@ impl<'a> Value<'a> {
     /// A number over 0.
     pub fn positive(&self) -> Result<f64, Error> {
         let n = self.number()?;
-        if n > 0.0 { Ok(n) } else { Err(self.error(format!("must be over 0, not {n}"))) }
+        if is_positive(n) { Ok(n) } else { Err(self.not_positive(format!("{n:e}"))) }
+    }
+
+    fn not_positive(&self, found: impl std::fmt::Display) -> Error {
+        self.error(format!("must be over 0, not {found}")).remedy(format!("the least is {SMALLEST:e}"))
     }
 
     /// A number of 0 and up.
@@ -172,13 +177,13 @@ impl<'a> Value<'a> {
     /// Lengths over 0.
     pub fn positive2(&self) -> Result<DVec2, Error> {
         let v = DVec2::from(self.numbers::<2>()?);
-        if v.min_element() > 0.0 { Ok(v) } else { Err(self.error(format!("must be over 0, not {v}"))) }
+        if is_positive(v.min_element()) { Ok(v) } else { Err(self.not_positive(v)) }
     }
 
     /// Lengths over 0.
     pub fn positive3(&self) -> Result<DVec3, Error> {
         let v = self.vec3()?;
-        if v.min_element() > 0.0 { Ok(v) } else { Err(self.error(format!("must be over 0, not {v}"))) }
+        if is_positive(v.min_element()) { Ok(v) } else { Err(self.not_positive(v)) }
     }
 
     /// A linear colour, or other numbers of 0 and up.
@@ -209,8 +214,10 @@ impl<'a> Value<'a> {
     }
 }
 
-/// Larger numbers are slips, and their squares leave the range of `f32` that the GPU works with.
-const LARGEST: f64 = 1e15;
+/// True for numbers that stay over 0 as `f32`, and whose squares do.
+pub(super) fn is_positive(number: f64) -> bool {
+    number >= SMALLEST
+}
 
 /// What a value is, for messages.
 fn kind_of(value: &DeValue<'_>) -> &'static str {

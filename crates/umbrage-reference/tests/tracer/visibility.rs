@@ -3,7 +3,7 @@
 use crate::scenes::{every_light, place, still_life};
 use std::sync::atomic::{AtomicU64, Ordering};
 use umbrage_core::glam::{DMat3, DVec2, DVec3, Vec2, Vec3, Vec4};
-use umbrage_core::{Camera, Image, Light, LightShape, Material, Mesh, Scene, Texture, primitive};
+use umbrage_core::{Camera, Image, Light, LightShape, Material, Mesh, Sampling, Scene, Texture, primitive};
 use umbrage_reference::{Options, Tracer, Truth};
 
 const SIZE: (u32, u32) = (96, 72);
@@ -28,7 +28,13 @@ fn mean(truth: &Truth) -> f64 {
 fn with_leaves() -> Scene {
     let mut scene = still_life();
     let checker = |i: u32| [255, 255, 255, if (i % 8 / 2 + i / 16).is_multiple_of(2) { 255 } else { 0 }];
-    scene.textures.push(Texture { name: "leaf".into(), width: 8, height: 8, rgba: (0..64).map(checker).collect() });
+    scene.textures.push(Texture {
+        name: "leaf".into(),
+        width: 8,
+        height: 8,
+        rgba: (0..64).map(checker).collect(),
+        sampling: Sampling::default(),
+    });
     let material = Material { texture: Some(0), alpha_cutoff: Some(0.5), ..Material::default() };
     let material = Material { base_color: Vec4::ONE, ..material };
     place(&mut scene, primitive::plane(), DVec3::splat(2.0), DMat3::from_rotation_x(0.2), DVec3::new(0.2, 2.0, 0.2));
@@ -157,7 +163,13 @@ fn a_mask_lets_light_through_its_holes() {
 fn a_mask_is_seen_through_by_the_camera() {
     let mut scene = Scene {
         camera: Camera { eye: DVec3::Z * 4.0, target: DVec3::ZERO, ..Camera::default() },
-        textures: vec![Texture { name: "half".into(), width: 2, height: 1, rgba: vec![[0, 0, 0, 255], [0, 0, 0, 0]] }],
+        textures: vec![Texture {
+            name: "half".into(),
+            width: 2,
+            height: 1,
+            rgba: vec![[0, 0, 0, 255], [0, 0, 0, 0]],
+            sampling: Sampling::default(),
+        }],
         ..Scene::default()
     };
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
@@ -250,7 +262,7 @@ fn a_bright_spot_on_a_textured_light_counts_for_more() {
     // The light's picture is black but for its left half, so that the light is as one of half the
     // width.
     let rgba = (0..16).map(|i| if i % 4 < 2 { [255; 4] } else { [0, 0, 0, 255] }).collect();
-    scene.textures.push(Texture { name: "half lit".into(), width: 4, height: 4, rgba });
+    scene.textures.push(Texture { name: "half lit".into(), width: 4, height: 4, rgba, sampling: Sampling::default() });
     let (position, direction, up) = (DVec3::new(0.0, 4.0, 0.0), DVec3::NEG_Y, DVec3::NEG_Z);
     let rect = |position, size, texture| {
         Light::new(LightShape::Rect { position, direction, up, size: DVec2::from(size), texture })

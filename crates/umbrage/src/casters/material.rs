@@ -2,7 +2,8 @@
 
 use crate::fullscreen::{self, bind, layout};
 use crate::{error::Error, gpu::Gpu, shader::Shared, shader::shader_struct};
-use umbrage_core::{Scene, Texture};
+use std::collections::HashMap;
+use umbrage_core::{Filter, Sampling, Scene, Texture, Wrap};
 use wgpu::util::DeviceExt;
 
 shader_struct! {
@@ -35,16 +36,34 @@ pub(super) fn all(scene: &Scene) -> Vec<Material> {
 
 /// A bind group for every texture; the first is plain white, for materials without one.
 pub(super) fn textures(gpu: &Gpu, scene: &Scene) -> Result<Vec<wgpu::BindGroup>, Error> {
-    let white = Texture { name: "white".into(), width: 1, height: 1, rgba: vec![[255; 4]] };
-    let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-        label: Some("base colour"),
-        address_mode_u: wgpu::AddressMode::Repeat,
-        address_mode_v: wgpu::AddressMode::Repeat,
-        mag_filter: wgpu::FilterMode::Linear,
-        min_filter: wgpu::FilterMode::Linear,
-        ..Default::default()
+    let sampling = Sampling::default();
+    let white = Texture { name: "white".into(), width: 1, height: 1, rgba: vec![[255; 4]], sampling };
+    let mut samplers = HashMap::new();
+    let mut group = |texture: &Texture| {
+        let sampler = samplers.entry(texture.sampling).or_insert_with(|| sampler(gpu, texture.sampling));
+        bind_group(gpu, texture, sampler)
+    };
+    std::iter::once(&white).chain(&scene.textures).map(&mut group).collect()
+}
+
+fn sampler(gpu: &Gpu, sampling: Sampling) -> wgpu::Sampler {
+    let [address_mode_u, address_mode_v] = sampling.wrap.map(|wrap| match wrap {
+        Wrap::Repeat => wgpu::AddressMode::Repeat,
+        Wrap::Mirror => wgpu::AddressMode::MirrorRepeat,
+        Wrap::Clamp => wgpu::AddressMode::ClampToEdge,
     });
-    std::iter::once(&white).chain(&scene.textures).map(|t| bind_group(gpu, t, &sampler)).collect()
+    let filter = match sampling.filter {
+        Filter::Linear => wgpu::FilterMode::Linear,
+        Filter::Nearest => wgpu::FilterMode::Nearest,
+    };
+    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("base colour"),
+        address_mode_u,
+        address_mode_v,
+        mag_filter: filter,
+        min_filter: filter,
+        ..Default::default()
+    })
 }
 
 fn bind_group(gpu: &Gpu, texture: &Texture, sampler: &wgpu::Sampler) -> Result<wgpu::BindGroup, Error> {

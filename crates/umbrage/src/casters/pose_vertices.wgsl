@@ -15,10 +15,10 @@ struct HeldBy {
 @group(0) @binding(1) var<storage, read> joints: array<JointRows>;
 @group(0) @binding(2) var<storage, read> starts: array<u32>;
 @group(0) @binding(3) var<storage, read> held: array<HeldBy>;
-// Normal and texture coordinate.
+// Normal, texture coordinate, opacity.
 @group(0) @binding(5) var<storage, read_write> attributes: array<f32>;
 
-const ATTRIBUTES: u32 = 5u;
+const ATTRIBUTES: u32 = 6u;
 
 // What a vertex's joints do together; nothing where none holds it.
 fn blend(first_joint: u32, start: u32, end: u32) -> JointRows {

@@ -21,8 +21,8 @@ impl MeshPart {
 #[derive(Default)]
 pub(super) struct Vertices {
     pub positions: Vec<[f32; 3]>,
-    /// Normal and texture coordinate.
-    pub attributes: Vec<[f32; 5]>,
+    /// Normal, texture coordinate, opacity.
+    pub attributes: Vec<[f32; 6]>,
     pub indices: Vec<u32>,
     pub welded: Vec<u32>,
 }
@@ -46,7 +46,8 @@ impl Vertices {
         self.attributes.extend((0..mesh.positions.len()).map(|i| {
             let n = mesh.normals.get(i).copied().unwrap_or_default();
             let uv = mesh.uvs.get(i).copied().unwrap_or_default();
-            [n.x, n.y, n.z, uv.x, uv.y]
+            let opacity = mesh.opacities.get(i).copied().unwrap_or(1.0);
+            [n.x, n.y, n.z, uv.x, uv.y, opacity]
         }));
         base_vertex
     }
@@ -57,13 +58,13 @@ impl Vertices {
 pub(crate) fn vertex_layouts(textured: bool) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
     const POSITION: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![0 => Float32x3];
     const NUMBER: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![1 => Uint32];
-    const ATTRIBUTES: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![2 => Float32x3, 3 => Float32x2];
+    const ATTRIBUTES: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![2 => Float32x3, 3 => Float32x3];
     let layout =
         |array_stride, step_mode, attributes| Some(wgpu::VertexBufferLayout { array_stride, step_mode, attributes });
     let mut layouts =
         vec![layout(12, wgpu::VertexStepMode::Vertex, POSITION), layout(4, wgpu::VertexStepMode::Instance, NUMBER)];
     if textured {
-        layouts.push(layout(20, wgpu::VertexStepMode::Vertex, ATTRIBUTES));
+        layouts.push(layout(24, wgpu::VertexStepMode::Vertex, ATTRIBUTES));
     }
     layouts
 }

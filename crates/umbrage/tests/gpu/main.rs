@@ -9,6 +9,7 @@ mod host;
 mod layouts;
 mod light_mask;
 mod limits;
+mod masks;
 mod outside;
 mod own_maps;
 mod pcf_blur;

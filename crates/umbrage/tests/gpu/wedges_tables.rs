@@ -4,7 +4,7 @@
 use crate::common::{against_truth, gpu, renderer, visibility};
 use crate::wedges::{difference, star, vs_hard};
 use umbrage::core::glam::DVec3;
-use umbrage::core::{LightShape, Scene, Texture};
+use umbrage::core::{LightShape, Sampling, Scene, Texture};
 
 const SIZE: (u32, u32) = (256, 192);
 
@@ -50,7 +50,13 @@ fn errors_of_tables_on_stored_scenes_are_as_stated() {
 /// A picture of 64 × 64 pixels, white where `is_bright`.
 fn picture(is_bright: impl Fn(u32, u32) -> bool) -> Texture {
     let pixel = |i: u32| if is_bright(i % 64, i / 64) { [255; 4] } else { [0, 0, 0, 255] };
-    Texture { name: "light".into(), width: 64, height: 64, rgba: (0..64 * 64).map(pixel).collect() }
+    Texture {
+        name: "light".into(),
+        width: 64,
+        height: 64,
+        rgba: (0..64 * 64).map(pixel).collect(),
+        sampling: Sampling::default(),
+    }
 }
 
 fn under(picture: Texture, position: DVec3, direction: DVec3, up: DVec3) -> Scene {

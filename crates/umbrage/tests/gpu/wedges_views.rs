@@ -3,7 +3,7 @@
 use crate::common::{gpu, pairs};
 use crate::wedges::star;
 use umbrage::core::glam::DVec3;
-use umbrage::core::{Image, LightShape, Scene, Texture, primitive};
+use umbrage::core::{Image, LightShape, Sampling, Scene, Texture, primitive};
 use umbrage::find;
 use umbrage_renderer::{LightPass, Renderer};
 
@@ -32,7 +32,7 @@ fn rect(texture: Option<usize>) -> Scene {
     let (direction, up) = (DVec3::NEG_Y, DVec3::Z);
     let mut scene = star(LightShape::Rect { position: POSITION, direction, up, size: [1.0, 0.6].into(), texture });
     let rgba = (0..16).map(|i| [if i % 3 == 0 { 255 } else { 40 }; 4]).collect();
-    scene.textures = vec![Texture { name: "light".into(), width: 4, height: 4, rgba }];
+    scene.textures = vec![Texture { name: "light".into(), width: 4, height: 4, rgba, sampling: Sampling::default() }];
     scene
 }
 

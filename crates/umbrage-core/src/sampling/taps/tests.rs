@@ -133,6 +133,7 @@ fn weighted_taps_go_where_a_picture_is_bright() {
         width: 2,
         height: 2,
         rgba: pixels.map(|v| [v, v, v, 255]).to_vec(),
+        sampling: Default::default(),
     };
     let table = TapTable::grid(Domain::Square, 16);
     // Rows go down: the second row is at negative y.

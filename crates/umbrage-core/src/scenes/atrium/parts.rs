@@ -1,7 +1,7 @@
 //! The pieces an atrium is put together from.
 
 use super::super::{kit::*, shapes};
-use crate::material::Texture;
+use crate::material::{Sampling, Texture};
 use crate::{Mesh, primitive};
 use glam::{DVec2, DVec3, Vec2};
 
@@ -154,5 +154,5 @@ pub fn tiles() -> Texture {
         [r, g, b, 255]
     };
     let rgba = (0..SIZE * SIZE).map(|i| texel(i % SIZE, i / SIZE)).collect();
-    Texture { name: "tiles".into(), width: SIZE, height: SIZE, rgba }
+    Texture { name: "tiles".into(), width: SIZE, height: SIZE, rgba, sampling: Sampling::default() }
 }

@@ -42,13 +42,13 @@ fn check(gpu: &Gpu, casters: &Casters, scene: &Scene) -> usize {
         for (i, (p, n)) in want.positions.iter().zip(&want.normals).enumerate() {
             let at = first + i;
             let got = Vec3::from_slice(&positions[3 * at..]);
-            let normal = Vec3::from_slice(&attributes[5 * at..]);
+            let normal = Vec3::from_slice(&attributes[6 * at..]);
             assert!(got.distance(*p) < 1e-5, "vertex {i} of instance {}: {got} for {p}", placed.number);
             assert!(normal.distance(*n) < 1e-4, "normal {i} of instance {}: {normal} for {n}", placed.number);
             let inside = got.as_dvec3().clamp(bounds.min, bounds.max) == got.as_dvec3();
             assert!(inside, "vertex {i} of instance {}: {got} is not in {bounds:?}", placed.number);
             let uv = want.uvs.get(i).copied().unwrap_or_default();
-            assert_eq!(&attributes[5 * at + 3..5 * at + 5], &uv.to_array());
+            assert_eq!(attributes[6 * at + 3..6 * at + 6], [uv.x, uv.y, 1.0]);
             compared += 1;
         }
     }

@@ -20,7 +20,7 @@ struct MapView {
 
 struct Masked {
     @invariant @builtin(position) position: vec4f,
-    @location(0) uv: vec2f,
+    @location(0) uv: vec3f,
     @location(1) @interpolate(flat) material: u32,
 }
 
@@ -46,7 +46,7 @@ fn masked(
     @location(0) position: vec3f,
     @location(1) instance: u32,
     @location(2) normal: vec3f,
-    @location(3) uv: vec2f,
+    @location(3) uv: vec3f,
 ) -> Masked {
     return Masked(map_position(instance, position), uv, instances[instance].material);
 }

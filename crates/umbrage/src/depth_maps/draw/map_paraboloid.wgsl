@@ -8,7 +8,7 @@
 
 struct Bent {
     @invariant @builtin(position) position: vec4f,
-    @location(0) uv: vec2f,
+    @location(0) uv: vec3f,
     @location(1) @interpolate(flat) material: u32,
     // From the light: right, up, ahead.
     @location(2) way: vec3f,
@@ -20,7 +20,7 @@ struct Bent {
 const LONGEST_LEAP: f32 = 1.0;
 const PLANE_ROUNDING: f32 = 1e-6;
 
-fn bent(way: vec3f, uv: vec2f, material: u32) -> Bent {
+fn bent(way: vec3f, uv: vec3f, material: u32) -> Bent {
     let distance = length(way);
     let w = max(distance + way.z, 1e-6 * distance);
     let plane = map_view.clip_from_plane;
@@ -29,7 +29,7 @@ fn bent(way: vec3f, uv: vec2f, material: u32) -> Bent {
 
 @vertex
 fn opaque_bent(@location(0) position: vec3f, @location(1) instance: u32) -> Bent {
-    return bent(map_position(instance, position).xyw, vec2f(0.0), 0u);
+    return bent(map_position(instance, position).xyw, vec3f(0.0), 0u);
 }
 
 @vertex
@@ -37,7 +37,7 @@ fn masked_bent(
     @location(0) position: vec3f,
     @location(1) instance: u32,
     @location(2) normal: vec3f,
-    @location(3) uv: vec2f,
+    @location(3) uv: vec3f,
 ) -> Bent {
     return bent(map_position(instance, position).xyw, uv, instances[instance].material);
 }
