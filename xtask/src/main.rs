@@ -4,6 +4,7 @@
 mod bench;
 mod demo;
 mod docs;
+mod fuzz;
 mod setup;
 mod shell;
 mod tables;
@@ -19,6 +20,8 @@ cargo xtask COMMAND
   demo    compare the techniques on a few built-in scenes; ends in a table and out/demo/index.html
   test    run the whole test suite
   bench   measure the standard set of scenes and write benchmarks/<date>-<machine>/
+  fuzz MINUTES
+          read damaged files of every kind; what fails is kept in out/fuzz/
   tables za|fe|px
           measure the tables of three theses again: filtered and soft maps (za), splits (fe), wedges (px);
           write maps/, splits/ or loops/ there
@@ -46,6 +49,7 @@ fn run() -> Result<()> {
         ["demo"] => demo::run(),
         ["test", rest @ ..] => test::run(rest),
         ["bench"] => bench::run(),
+        ["fuzz", minutes] => fuzz::run(minutes),
         ["docs"] => docs::tables(),
         ["docs", "--pictures"] => docs::pictures(),
         ["docs", "--numbers"] => docs::numbers(),

@@ -58,9 +58,10 @@ impl Error {
         Self { remedy: Some(line(&remedy.into())), ..self }
     }
 
-    /// What it says without its remedy, for an error that takes it up.
-    pub(crate) fn without_remedy(&self) -> Self {
-        Self { remedy: None, ..self.clone() }
+    /// The same error in the words of `inner`, about a file that this one names, with its remedy.
+    pub(crate) fn passing_on(self, inner: &Self) -> Self {
+        let what = line(&format!("{} {}", self.what, Self { remedy: None, ..inner.clone() }));
+        Self { what, remedy: inner.remedy.clone().or(self.remedy), ..self }
     }
 
     /// The same error with the known name nearest to `name` as its remedy, or all of them where
@@ -82,7 +83,7 @@ fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a s
 }
 
 /// Longer parts of a message repeat a damaged file, and are cut off.
-const LONGEST: usize = 400;
+const LONGEST: usize = 600;
 
 /// A part of a message on one line, whatever files and other crates put into it.
 pub(crate) fn line(text: &str) -> String {
@@ -153,7 +154,7 @@ mod tests {
         let e = Error::new("a\u{1b}[31m.obj", "x".repeat(9999)).at(Place::Part("mesh \u{7}".repeat(999)));
         let e = e.did_you_mean(&"y".repeat(9999), ["\u{9b}2J"]).to_string();
         assert!(e.starts_with("a\\u{1b}[31m.obj: mesh \\u{7}mesh"), "{e}");
-        assert!(e.len() < 1500 && !e.contains(char::is_control), "{e}");
+        assert!(e.len() < 2500 && !e.contains(char::is_control), "{e}");
     }
 
     #[cfg(unix)]

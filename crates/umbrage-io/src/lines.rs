@@ -66,7 +66,7 @@ fn has_numbers(line: &str) -> bool {
 impl Line<'_> {
     /// An error at this line.
     pub fn error(&self, what: impl std::fmt::Display) -> Error {
-        Error::new(self.file, what).at(Place::Line(self.number, None))
+        Error::new(self.file, what).at(Place::Line(self.number, None)).remedy("mend it, or export the file again")
     }
 
     /// The first `N` words as numbers; there may be more words.
@@ -78,9 +78,7 @@ impl Line<'_> {
                 self.error(format!("`{}` needs {N} numbers and has {i}", self.keyword))
                     .remedy("the file may be cut off or damaged: export it again")
             })?;
-            *number = f32::from_str(word).map_err(|_| {
-                self.error(format!("`{word}` is not a number")).remedy("mend it, or export the file again")
-            })?;
+            *number = f32::from_str(word).map_err(|_| self.error(format!("`{word}` is not a number")))?;
             if !number.is_finite() {
                 return Err(self
                     .error(format!("`{} {}` is not finite", self.keyword, self.rest))

@@ -75,7 +75,8 @@ impl Library {
         })?;
         for entry in entries {
             let material = self.material(&entry).map_err(|e| {
-                Error::new(file, format!("material `{}` names {e}", entry.name)).at(Place::Line(entry.line, None))
+                let what = format!("material `{}` names", error::line(&entry.name));
+                Error::new(file, what).at(Place::Line(entry.line, None)).passing_on(&e)
             })?;
             self.by_name.insert(entry.name, self.materials.len());
             self.materials.push(material);

@@ -41,11 +41,7 @@ impl File<'_> {
 
     /// An error at a part of the file, from what is wrong with the file that it names.
     fn pass_on(&self, part: impl Display, error: &Error) -> Error {
-        let passed = self.error(part, format!("names {}", error.without_remedy()));
-        match &error.remedy {
-            Some(remedy) => passed.remedy(remedy),
-            None => passed,
-        }
+        self.error(part, "names").passing_on(error)
     }
 
     fn note(&mut self, note: impl Display) {

@@ -103,7 +103,7 @@ fn read_cone(table: &Table<'_>) -> Result<[f64; 2], Error> {
 }
 
 fn read_texture(scene: &mut Scene, dir: &Path, path: &Value<'_>) -> Result<usize, Error> {
-    let texture = pictures::load_texture(&dir.join(path.string()?)).map_err(|e| path.error(format!("names {e}")))?;
+    let texture = pictures::load_texture(&dir.join(path.string()?)).map_err(|e| path.error("names").passing_on(&e))?;
     let known = scene.textures.iter().position(|t| *t == texture);
     Ok(known.unwrap_or_else(|| {
         scene.textures.push(texture);

@@ -146,7 +146,7 @@ impl<'a> Models<'a> {
         // The same file may be named in several ways.
         let key = file.canonicalize().unwrap_or_else(|_| file.clone());
         if !self.files.contains_key(&key) {
-            let model = Model::read(&file).map_err(|e| path.error(format!("names {e}")))?;
+            let model = Model::read(&file).map_err(|e| path.error("names").passing_on(&e))?;
             let count = model.meshes.iter().map(|m| m.triangle_count() as u64).sum();
             if !self.triangles.take(count) {
                 return Err(too_many(path));
