@@ -78,21 +78,21 @@ fn read(built: &Path, left: Duration, first: u64) -> Result<(u64, usize)> {
     }
     let status = child.wait().context("the reader does not end")?;
     if !is_done {
-        let kept = last_input()?;
+        let (number, kept) = last_input()?;
         println!("found: the reader ended with {status}: {}", kept.display());
-        let number = fs::read_to_string(kept.join("number.txt")).ok().and_then(|n| n.trim().parse().ok());
-        return Ok((number.unwrap_or(first), found + 1));
+        return Ok((number, found + 1));
     }
     Ok((last, found))
 }
 
 /// The input that the reader was at when it ended.
-fn last_input() -> Result<PathBuf> {
-    let now = Path::new(FOLDER).join("now");
-    let number = fs::read_to_string(now.join("number.txt")).context("the reader has left no input")?;
-    let kept = Path::new(FOLDER).join(format!("input-{}", number.trim()));
-    fs::rename(&now, &kept).with_context(|| format!("{} can't be moved", now.display()))?;
-    Ok(kept)
+fn last_input() -> Result<(u64, PathBuf)> {
+    let folder = Path::new(FOLDER);
+    let number = fs::read_to_string(folder.join("number.txt")).context("the reader has left no input")?;
+    let number: u64 = number.trim().parse().context("the reader has left no number of an input")?;
+    let kept = folder.join(format!("input-{number}"));
+    fs::rename(folder.join("now"), &kept).context("the last input can't be moved")?;
+    Ok((number, kept))
 }
 
 fn name(program: &str) -> String {

@@ -1,7 +1,8 @@
 //! MTL, the material libraries of OBJ files.
 //!
 //! Kd → base colour; luminance of Ks → specular; Ns → shininess; Ke → emissive; map_Kd → texture.
-//! map_d, or a map_Kd with transparent pixels, is an alpha mask at one half. A plain `d` or `Tr`
+//! map_d, or a map_Kd with transparent pixels, is an alpha mask at one half; -s, -o and -clamp are
+//! read. A plain `d` or `Tr`
 //! below 1 is noted: shadows are those of the opaque surface. (Source: Wavefront, "MTL material
 //! format", version 4.2.)
 
@@ -9,24 +10,29 @@ use crate::error::{self, Error, Place, shown};
 use crate::limits::{Budget, MOST_PIXELS_IN_ALL};
 use crate::lines::{self, Line};
 use crate::{pictures, text};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use umbrage_core::{Material, Texture};
+use umbrage_core::{Material, Sampling, Texture, Wrap};
 
 /// The alpha below which a masked surface is absent.
 const ALPHA_CUTOFF: f32 = 0.5;
+
+/// Larger numbers of options are slips: texture coordinates have to stay finite.
+const LARGEST_OPTION: f32 = 1e6;
 
 /// The materials of one or several libraries, with their pictures.
 #[derive(Debug)]
 pub(crate) struct Library {
     pub materials: Vec<Material>,
+    /// How each of them looks up its picture.
+    pub lookups: Vec<Lookup>,
     pub textures: Vec<Texture>,
     /// Index into `materials` by name.
     pub by_name: HashMap<String, usize>,
     pub notes: Vec<String>,
-    /// Index into `textures` by base-colour and mask file.
-    texture_by_files: HashMap<[Option<PathBuf>; 2], Option<usize>>,
+    /// Index into `textures` by base-colour and mask file, and whether they are clamped.
+    texture_by_files: HashMap<([Option<PathBuf>; 2], bool), Option<usize>>,
     pixels: Budget,
 }
 
@@ -34,6 +40,7 @@ impl Default for Library {
     fn default() -> Self {
         Self {
             materials: Vec::new(),
+            lookups: Vec::new(),
             textures: Vec::new(),
             by_name: HashMap::new(),
             notes: Vec::new(),
@@ -53,14 +60,43 @@ struct Entry {
     shininess: Option<f32>,
     emissive: Vec3,
     opacity: Option<f32>,
-    diffuse_map: Option<PathBuf>,
-    opacity_map: Option<PathBuf>,
+    diffuse_map: Option<Map>,
+    opacity_map: Option<Map>,
+}
+
+/// A picture and how surfaces look it up.
+#[derive(Clone)]
+struct Map {
+    file: PathBuf,
+    lookup: Lookup,
+    is_clamped: bool,
+}
+
+/// Texture coordinates of vertices as a map takes them: scaled by `-s`, then moved by `-o`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lookup {
+    scale: Vec2,
+    offset: Vec2,
+}
+
+impl Default for Lookup {
+    fn default() -> Self {
+        Self { scale: Vec2::ONE, offset: Vec2::ZERO }
+    }
+}
+
+impl Lookup {
+    /// Where a vertex looks up the picture; v of the file points up, here it points down.
+    pub fn place(&self, uv: Vec2) -> Vec2 {
+        let up = Vec2::new(uv.x, 1.0 - uv.y) * self.scale + self.offset;
+        if *self == Self::default() { uv } else { Vec2::new(up.x, 1.0 - up.y) }
+    }
 }
 
 impl Library {
-    /// Adds the materials of a file.
-    pub fn read(&mut self, file: &Path) -> Result<(), Error> {
-        let text = text::decode_old(file, error::read(file)?)?;
+    /// Adds the materials of a file, whose bytes these are.
+    pub fn read(&mut self, file: &Path, bytes: Vec<u8>) -> Result<(), Error> {
+        let text = text::decode_old(file, bytes)?;
         let dir = file.parent().unwrap_or(Path::new(""));
         let mut entries: Vec<Entry> = Vec::new();
         lines::for_each(file, &text, |line| {
@@ -78,6 +114,8 @@ impl Library {
                 let what = format!("material `{}` names", error::line(&entry.name));
                 Error::new(file, what).at(Place::Line(entry.line, None)).passing_on(&e)
             })?;
+            let lookup = self.lookup(&entry);
+            self.lookups.push(lookup);
             self.by_name.insert(entry.name, self.materials.len());
             self.materials.push(material);
         }
@@ -106,13 +144,28 @@ impl Library {
         })
     }
 
+    /// How a material looks up its pictures; one way for both.
+    fn lookup(&mut self, entry: &Entry) -> Lookup {
+        let maps: Vec<&Map> = entry.opacity_map.iter().chain(&entry.diffuse_map).collect();
+        if let [mask, color] = maps[..]
+            && mask.lookup != color.lookup
+        {
+            let name = error::line(&entry.name);
+            self.notes.push(format!("material `{name}`: `map_Kd` is looked up as `map_d` is, with its -s and -o"));
+        }
+        maps.first().map(|map| map.lookup).unwrap_or_default()
+    }
+
     /// The picture of a material, with the mask of map_d as its alpha.
     fn texture(&mut self, entry: &Entry) -> Result<Option<usize>, Error> {
-        let files = [entry.diffuse_map.clone(), entry.opacity_map.clone()];
-        if let Some(&known) = self.texture_by_files.get(&files) {
+        let maps = [&entry.diffuse_map, &entry.opacity_map];
+        let is_clamped = maps.into_iter().flatten().any(|map| map.is_clamped);
+        let files = maps.map(|map| map.as_ref().map(|map| map.file.clone()));
+        let key = (files, is_clamped);
+        if let Some(&known) = self.texture_by_files.get(&key) {
             return Ok(known);
         }
-        let [color, mask] = &files;
+        let [color, mask] = &key.0;
         let color = self.load(entry, color.as_deref(), "its colour and holes are left out")?;
         let mask = self.load(entry, mask.as_deref(), "it has no holes")?;
         let texture = match (color, mask) {
@@ -123,11 +176,12 @@ impl Library {
             }
             (Some(color), Some(mask)) => Some(with_mask(color, &mask)),
         };
+        let wrap = if is_clamped { Wrap::Clamp } else { Wrap::Repeat };
         let index = texture.map(|texture| {
-            self.textures.push(texture);
+            self.textures.push(Texture { sampling: Sampling { wrap: [wrap; 2], ..Sampling::default() }, ..texture });
             self.textures.len() - 1
         });
-        self.texture_by_files.insert(files, index);
+        self.texture_by_files.insert(key, index);
         Ok(index)
     }
 
@@ -163,8 +217,9 @@ fn read_line(entry: &mut Entry, line: &Line<'_>, dir: &Path, notes: &mut Vec<Str
     Ok(())
 }
 
-/// The file of a map: what is left of the line after its options.
-fn map_file(line: &Line<'_>, dir: &Path, notes: &mut Vec<String>) -> Result<PathBuf, Error> {
+/// A map: its options, and the file, which is what is left of the line after them.
+fn map_file(line: &Line<'_>, dir: &Path, notes: &mut Vec<String>) -> Result<Map, Error> {
+    let mut map = Map { file: PathBuf::new(), lookup: Lookup::default(), is_clamped: false };
     let mut rest = line.rest;
     let next = |rest: &mut &str| {
         let (word, after) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
@@ -180,18 +235,39 @@ fn map_file(line: &Line<'_>, dir: &Path, notes: &mut Vec<String>) -> Result<Path
             "-o" | "-s" | "-t" => (1, 2),
             _ => (1, 0),
         };
-        (0..fixed).for_each(|_| drop(next(&mut rest)));
+        let mut words: Vec<String> = (0..fixed).map(|_| next(&mut rest)).collect();
         for _ in 0..numbers {
             if rest.split_whitespace().next().is_some_and(|w| w.parse::<f32>().is_ok()) {
-                next(&mut rest);
+                words.push(next(&mut rest));
             }
+        }
+        if map.take_option(&option, &words) {
+            continue;
         }
         notes.push(format!("{}:{}: `{}` was left out", shown(line.file), line.number, error::line(&option)));
     }
     if rest.is_empty() {
         return Err(line.error(format!("`{}` names no file", line.keyword)).remedy("name one, or remove the line"));
     }
-    Ok(dir.join(rest.replace('\\', "/")))
+    map.file = dir.join(rest.replace('\\', "/"));
+    Ok(map)
+}
+
+impl Map {
+    /// Takes an option that changes where a surface looks up the picture; false for others.
+    fn take_option(&mut self, option: &str, words: &[String]) -> bool {
+        let number = |i: usize, default: f32| {
+            let number = words.get(i).and_then(|w| w.parse::<f32>().ok());
+            number.filter(|n| n.is_finite() && n.abs() <= LARGEST_OPTION).unwrap_or(default)
+        };
+        match option {
+            "-s" => self.lookup.scale = Vec2::new(number(0, 1.0), number(1, 1.0)),
+            "-o" => self.lookup.offset = Vec2::new(number(0, 0.0), number(1, 0.0)),
+            "-clamp" => self.is_clamped = words.first().is_some_and(|w| w == "on"),
+            _ => return false,
+        }
+        true
+    }
 }
 
 /// `color` with the alpha of `mask`, or with its brightness where the mask is opaque all over.

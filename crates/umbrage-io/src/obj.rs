@@ -13,7 +13,7 @@ use crate::error::{self, Error, Place, shown};
 use crate::limits::{MOST_CORNERS, MOST_TRIANGLES};
 use crate::lines::{self, Line};
 use crate::model::{Hold, Model, Part, is_usable, is_usable_uv};
-use crate::mtl::Library;
+use crate::mtl::{Library, Lookup};
 use crate::polygon::{Cut, Cutter};
 use crate::text;
 use glam::{Vec2, Vec3};
@@ -183,7 +183,8 @@ impl Contents {
                 continue;
             }
             if !error::is_missing(&path) {
-                self.library.read(&path)?;
+                let bytes = error::read(&path).map_err(|e| line.error("`mtllib` names").passing_on(&e))?;
+                self.library.read(&path, bytes)?;
                 continue;
             }
             self.library.notes.push(format!(
@@ -251,7 +252,7 @@ impl Contents {
     fn into_model(mut self, file: &Path, triangles: &[(usize, [u32; 3])]) -> Model {
         let smooth = self.smooth_normals(triangles);
         let mut model = Model::default();
-        let mut builders: Vec<MeshBuilder> = self.groups.iter().map(|g| MeshBuilder::new(&self.names, g)).collect();
+        let mut builders: Vec<MeshBuilder> = self.groups.iter().map(|g| MeshBuilder::new(&self, g)).collect();
         for (group, corners) in triangles {
             corners.iter().for_each(|c| builders[*group].add(self.corners[*c as usize], &self, &smooth));
         }
@@ -309,15 +310,19 @@ impl Contents {
 /// Turns corners into vertices: equal corners are one vertex.
 struct MeshBuilder {
     mesh: Mesh,
+    lookup: Lookup,
     vertex_of_corner: HashMap<Corner, u32>,
 }
 
 impl MeshBuilder {
-    fn new(names: &Names, group: &Group) -> Self {
-        let [object, material] = [group.object, group.material].map(|name| names.get(name).unwrap_or_default());
+    fn new(contents: &Contents, group: &Group) -> Self {
+        let named = |name| contents.names.get(name).unwrap_or_default();
+        let [object, material] = [group.object, group.material].map(named);
+        let known = contents.library.by_name.get(material);
+        let lookup = known.and_then(|number| contents.library.lookups.get(*number)).copied().unwrap_or_default();
         let [object, material] = [object, material].map(|name| text::printable(name, LONGEST_NAME));
         let name = format!("{object} {material}").trim().to_owned();
-        Self { mesh: Mesh { name, ..Mesh::default() }, vertex_of_corner: HashMap::new() }
+        Self { mesh: Mesh { name, ..Mesh::default() }, lookup, vertex_of_corner: HashMap::new() }
     }
 
     fn add(&mut self, corner: Corner, contents: &Contents, smooth: &[Vec3]) {
@@ -329,7 +334,7 @@ impl MeshBuilder {
             mesh.positions.push(contents.positions[position]);
             mesh.normals.push(own.unwrap_or(smooth));
             if !contents.uvs.is_empty() {
-                mesh.uvs.push(contents.uvs.get(uv).copied().unwrap_or_default());
+                mesh.uvs.push(self.lookup.place(contents.uvs.get(uv).copied().unwrap_or_default()));
             }
             mesh.positions.len() as u32 - 1
         });

@@ -283,6 +283,7 @@ fn obj_errors_name_the_line() {
     assert!(notes[0].contains("material `leaf`: the picture") && notes[0].contains("is missing"), "{notes:?}");
     f.write("a.mtl", "newmtl leaf\nKd 1 x 1\n");
     assert!(f.error("a.obj").contains("a.mtl:2: `x` is not a number"));
+    f.expect("a.obj", "mtllib a.mtl", "mtllib .", &["a.obj:1: `mtllib` names ", "it is a folder; name a file in it"]);
     std::fs::remove_file(f.path("a.mtl")).unwrap();
     let notes = open(&f.path("a.obj")).unwrap().notes;
     assert!(notes[0].contains("a.obj:1: material library `a.mtl` is missing"), "{notes:?}");
@@ -405,4 +406,52 @@ fn files_of_no_use_are_refused() {
     f.error("empty.glb");
     std::fs::create_dir(f.path("dir.obj")).unwrap();
     assert!(f.error("dir.obj").contains("cannot be read"));
+}
+
+#[test]
+fn what_files_claim_costs_neither_memory_nor_time() {
+    let f = Folder::new();
+    let started = std::time::Instant::now();
+    f.expect(
+        "a.gltf",
+        "{\"bufferView\":1,\"componentType\":5123,\"count\":3",
+        "{\"componentType\":5123,\"count\":67108863",
+        &["accessor 1", "67108863 elements and no bytes"],
+    );
+    // A picture of 30,000 × 30,000 pixels, of which nothing follows.
+    let png = std::fs::read(f.path("leaf.png")).unwrap();
+    let mut large = png.clone();
+    large[16..24].copy_from_slice(&[0, 0, 0x75, 0x30, 0, 0, 0x75, 0x30]);
+    let crc = crc(&large[12..29]);
+    large[29..33].copy_from_slice(&crc.to_be_bytes());
+    f.write("leaf.png", &large);
+    let message = f.error("a.obj");
+    assert!(
+        message.contains("leaf.png") && message.contains("30000 × 30000") && message.contains("scale it"),
+        "{message}"
+    );
+    f.write("leaf.png", &png);
+    // A long name of an object, of a material that changes all the time, and of a library.
+    let names = format!("o {}\n", "n".repeat(1_000_000));
+    let faces: String = (0..50_000).map(|i| format!("usemtl m{}\nf 1 2 3\n", i % 1000)).collect();
+    let libraries = "mtllib a.mtl\n".repeat(50_000);
+    f.write("long.obj", format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{names}{faces}{libraries}"));
+    assert_eq!(open(&f.path("long.obj")).unwrap().scene.meshes.len(), 1000);
+    // A polygon of more corners than can be cut, and shapes of more triangles than there may be.
+    let corners = |i: usize| format!("v {i} {} 0\n", if i % 2 == 0 { 9 } else { 1 });
+    let polygon: String = (0..20_000).map(corners).chain(["v 0 -9 0\nf".into()]).collect();
+    let numbers: String = (1..20_002).map(|i| format!(" {i}")).collect();
+    f.write("comb.obj", polygon + &numbers);
+    assert!(f.error("comb.obj").contains("a concave polygon has 20001 corners"), "{}", f.error("comb.obj"));
+    f.write("many.toml", "[[model]]\nprimitive = 'cylinder'\nradius = 1\nheight = 1\nsegments = [4096, 4096]\n");
+    let message = f.error("many.toml");
+    assert!(message.contains("more than 33554432 triangles"), "{message}");
+    assert!(started.elapsed().as_secs() < 60, "{:?}", started.elapsed());
+}
+
+/// The check sum of a PNG's parts.
+fn crc(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(u32::MAX, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 })
+    })
 }

@@ -75,7 +75,7 @@ fn obj_objects_and_materials_are_meshes_and_a_mask_cuts_out() {
     );
     std::fs::write(
         dir.path().join("my materials.mtl"),
-        "newmtl a\nmap_Kd -s 2 2 color.png\nmap_d sub\\mask.png\nd 0.5\nnewmtl b\nKd 0.25 0.5 1\nTr 0.75\n",
+        "newmtl a\nmap_Kd -bm 2 color.png\nmap_d sub\\mask.png\nd 0.5\nnewmtl b\nKd 0.25 0.5 1\nTr 0.75\n",
     )
     .unwrap();
     std::fs::create_dir(dir.path().join("sub")).unwrap();
@@ -89,7 +89,7 @@ fn obj_objects_and_materials_are_meshes_and_a_mask_cuts_out() {
     assert_eq!(scene.textures[0].rgba, [row, row].concat());
     assert_eq!((scene.materials[0].alpha_cutoff, scene.materials[1].alpha_cutoff), (Some(0.5), None));
     assert_eq!(scene.materials[1].base_color.to_array(), [0.25, 0.5, 1.0, 1.0]);
-    for part in ["`-s` was left out", "`b` is 25 % opaque", "`nothing` is in none of its libraries"] {
+    for part in ["`-bm` was left out", "`b` is 25 % opaque", "`nothing` is in none of its libraries"] {
         assert!(notes.iter().any(|n| n.contains(part)), "`{part}` is not in {notes:?}");
     }
     assert!(!notes.iter().any(|n| n.contains("`a` is")), "{notes:?}");

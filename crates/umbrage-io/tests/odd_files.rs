@@ -143,6 +143,16 @@ fn same() -> Vec<(&'static str, Input, String)> {
             .and("a.png", picture(2, |x, _| x == 1)),
             "v 0.5 0 0\nv 1 0 0\nv 1 1 0\nv 0.5 1 0\nf 1 2 3 4\n".into(),
         ),
+        (
+            "a mask that is scaled, moved and clamped",
+            Input::obj(
+                "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3 4/4\n"
+                    .into(),
+            )
+            .and("a.mtl", b"newmtl m\nmap_d -s 2 1 1 -o -0.75 0 -clamp on a.png\n".to_vec())
+            .and("a.png", picture(2, |x, _| x == 1)),
+            "v 0.625 0 0\nv 1 0 0\nv 1 1 0\nv 0.625 1 0\nf 1 2 3 4\n".into(),
+        ),
     ]
 }
 

@@ -41,6 +41,15 @@ impl Folder {
         names
     }
 
+    /// The plots of an earlier sweep into this folder, which its record does not name.
+    pub(crate) fn plots_of(&self, record: &str) -> BTreeSet<String> {
+        let is_plot = |name: &String| name.contains("-light") && name.ends_with(".svg");
+        let entries = self.path(record).is_file().then(|| fs::read_dir(self.path("plots")));
+        let files = entries.into_iter().flatten().flatten().flatten();
+        let names = files.map(|file| file.file_name().to_string_lossy().into_owned());
+        names.filter(is_plot).map(|name| format!("plots/{name}")).collect()
+    }
+
     /// Removes pictures of an earlier run that this one has not written anew.
     pub(crate) fn remove(&self, earlier: BTreeSet<String>, is_new: impl Fn(&str) -> bool) {
         for name in earlier.iter().filter(|name| !is_new(name)) {

@@ -50,7 +50,7 @@ fn main() {
     while started.elapsed() < arguments.time {
         let case = change(&corpus, number);
         case.write(&folder);
-        std::fs::write(folder.join("number.txt"), number.to_string()).expect("the number of the input");
+        std::fs::write(arguments.kept.join("number.txt"), number.to_string()).expect("the number of the input");
         watch.begin(number);
         let mut found = check.read(&case);
         if found.is_ok() && number.is_multiple_of(THROUGH_COMMAND) {

@@ -74,9 +74,11 @@ pub fn load_rgb(path: &Path) -> Result<Image<[f32; 3]>, Error> {
     if image::guess_format(&bytes).ok() == Some(ImageFormat::OpenExr) {
         return Exr::decode(path, &bytes)?.rgb(path);
     }
-    let picture = decode(path, &bytes, &[ImageFormat::Hdr], &mut Budget::new(MOST_PIXELS))?.into_rgb32f();
+    let picture = decode(path, &bytes, &[ImageFormat::Hdr], &mut Budget::new(MOST_PIXELS / 2))?.into_rgb32f();
     let (width, height) = picture.dimensions();
-    Ok(Image { width, height, data: picture.pixels().map(|p| p.0).collect() })
+    let data = bytemuck::allocation::try_cast_vec(picture.into_raw())
+        .unwrap_or_else(|(_, numbers)| numbers.as_chunks::<3>().0.to_vec());
+    Ok(Image { width, height, data })
 }
 
 /// Decodes a picture of one of the `formats`, told by its first bytes. Its size is believed, and
@@ -98,8 +100,16 @@ fn decode(name: &Path, bytes: &[u8], formats: &[ImageFormat], pixels: &mut Budge
     if count > MOST_PIXELS || !pixels.take(count) {
         return Err(too_large(name, width as usize, height as usize));
     }
+    let bits = count * u64::from(decoder.original_color_type().bits_per_pixel());
+    if format == ImageFormat::Png && bits / 8 > MOST_PACKED * bytes.len() as u64 {
+        let what = format!("is cut off: {width} × {height} pixels do not come out of {} bytes", bytes.len());
+        return Err(Error::new(name, what).remedy("export it again"));
+    }
     DynamicImage::from_decoder(decoder).map_err(damaged)
 }
+
+/// How many bytes may come out of one: what deflate packs best, rounded up.
+const MOST_PACKED: u64 = 1100;
 
 fn too_large(name: &Path, width: usize, height: usize) -> Error {
     let what = format!("is too large with {width} × {height} pixels: of a picture {MOST_PIXELS} are read");
@@ -124,8 +134,11 @@ impl Exr {
                 return Err(damaged(format!("its size is {width} × {height}")));
             }
             let values = (width as u64).saturating_mul(height as u64).saturating_mul(header.channels.list.len() as u64);
-            if values > 4 * MOST_PIXELS {
+            if values > MOST_PIXELS {
                 return Err(too_large(path, width, height));
+            }
+            if values > MOST_PACKED * bytes.len() as u64 {
+                return Err(damaged(format!("{width} × {height} pixels do not come out of {} bytes", bytes.len())));
             }
         }
         let layer = exr::prelude::read()
@@ -134,6 +147,8 @@ impl Exr {
             .all_channels()
             .first_valid_layer()
             .all_attributes()
+            // Threads would go on, and hold memory, after an error.
+            .non_parallel()
             .from_buffered(Cursor::new(bytes))
             .map_err(|e| damaged(e.to_string()))?
             .layer_data;

@@ -25,14 +25,17 @@ impl SweepOutcome {
     /// # Errors
     /// A folder that can't be written to.
     pub fn write(&self, folder: &Folder) -> Result<(), Error> {
+        let (pictures, earlier_plots) = (folder.pictures_of("sweep.json"), folder.plots_of("sweep.json"));
         for (name, bytes) in &self.pictures.files {
             folder.write(name, bytes)?;
         }
+        folder.remove(pictures, |name| self.pictures.files.contains_key(name));
         let mut plots = plot::all(&self.report);
         plots.extend(along::all(&self.report, &self.along));
         for plot in &plots {
             folder.write(&plot.file, plot.svg.as_bytes())?;
         }
+        folder.remove(earlier_plots, |name| plots.iter().any(|plot| plot.file == name));
         folder.write("sweep.json", self.json().as_bytes())?;
         folder.write("index.html", html::sweep_page(&self.report, &self.pictures.files, &plots).as_bytes())
     }
