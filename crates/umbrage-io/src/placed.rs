@@ -53,11 +53,25 @@ pub(crate) fn check(path: &Path, scene: &Scene) -> Result<(), Error> {
     }
 }
 
-/// What the shape of a posed instance depends on, besides its mesh.
-fn key(instance: &Instance) -> Option<(usize, usize, Option<(usize, u64)>, [u64; 12])> {
+/// What the shape and the place of a posed instance depend on, besides its mesh.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct PoseKey {
+    rig: usize,
+    skin: usize,
+    /// Animation, and the bits of the time.
+    moment: Option<(usize, u64)>,
+    /// The bits of the transform.
+    world_from_mesh: [u64; 12],
+}
+
+fn key(instance: &Instance) -> Option<PoseKey> {
     let pose = instance.pose.as_ref()?;
-    let moment = pose.moment.map(|m| (m.animation, m.time_s.to_bits()));
-    Some((pose.rig, pose.skin, moment, instance.world_from_mesh.to_cols_array().map(f64::to_bits)))
+    Some(PoseKey {
+        rig: pose.rig,
+        skin: pose.skin,
+        moment: pose.moment.map(|m| (m.animation, m.time_s.to_bits())),
+        world_from_mesh: instance.world_from_mesh.to_cols_array().map(f64::to_bits),
+    })
 }
 
 fn mask(corner: usize) -> glam::BVec3 {

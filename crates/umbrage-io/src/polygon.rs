@@ -129,8 +129,9 @@ fn split(parts: &mut Vec<[u32; 3]>, from: u32, between: &[u32], to: u32) {
     parts.extend(new);
 }
 
-/// The polygon in the plane that it lies in at least roughly, counter-clockwise; `None` where it has
-/// no area, or as much on one side as on the other. The normal is Newell's, the mean of those of all corners.
+/// The polygon in the plane that it lies in at least roughly, counter-clockwise; `None` where it
+/// has no area, or as much on one side as on the other. The normal is Newell's, the mean of those
+/// of all corners.
 fn flatten(corners: &[Vec3]) -> Option<Vec<DVec2>> {
     let first = corners.first()?.as_dvec3();
     let relative: Vec<DVec3> = corners.iter().map(|p| p.as_dvec3() - first).collect();

@@ -438,7 +438,7 @@ fn what_files_claim_costs_neither_memory_nor_time() {
     f.write("long.obj", format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{names}{faces}{libraries}"));
     assert_eq!(open(&f.path("long.obj")).unwrap().scene.meshes.len(), 1000);
     // A polygon of more corners than can be cut, and shapes of more triangles than there may be.
-    let corners = |i: usize| format!("v {i} {} 0\n", if i % 2 == 0 { 9 } else { 1 });
+    let corners = |i: usize| format!("v {i} {} 0\n", if i.is_multiple_of(2) { 9 } else { 1 });
     let polygon: String = (0..20_000).map(corners).chain(["v 0 -9 0\nf".into()]).collect();
     let numbers: String = (1..20_002).map(|i| format!(" {i}")).collect();
     f.write("comb.obj", polygon + &numbers);

@@ -1,7 +1,7 @@
 //! Odd but valid files give the surface that plain files give, or what is not read is named.
 //!
-//! All of them hold cards that face +Z. A card is compared where it is there and where it has holes,
-//! by looking along Z at a grid of points.
+//! All of them hold cards that face +Z. A card is compared where it is there and where it has
+//! holes, by looking along Z at a grid of points.
 
 mod cards;
 

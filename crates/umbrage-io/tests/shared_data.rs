@@ -117,7 +117,7 @@ fn gltf_files_open() {
     let dir = shared();
     // Triangles, instances, textures, height, notes apart from those on camera and light.
     for (name, triangles, instances, textures, height, notes) in [
-        ("CornellBox.glb", 36, 6, 0, 548.8, 0),
+        ("CornellBox.glb", 36, 6, 0, 548.8, 1),
         ("Cubes.glb", 36, 3, 0, 5.53, 0),
         ("Fox.glb", 576, 1, 1, 79.03, 1),
         ("FlightHelmet/FlightHelmet.gltf", 94_722, 6, 5, 0.716, 1),

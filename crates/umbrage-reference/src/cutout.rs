@@ -47,7 +47,8 @@ impl Cutouts {
         let texture =
             texture.filter(|t| t.width > 0 && t.height > 0 && t.rgba.len() >= t.width as usize * t.height as usize);
         let varies = texture.is_some() || !mesh.opacities.is_empty();
-        // alpha · opacity ≥ cutoff; of a quite transparent material nothing is there, unless all is.
+        // alpha · opacity ≥ cutoff; of a quite transparent material nothing is there, unless all
+        // is.
         match (cutoff > 0.0, opacity > 0.0) {
             (false, _) => Holes::None,
             (true, false) => Holes::All,

@@ -1,4 +1,4 @@
-//! Names and streams of any kind: what is printed commands no terminal, and no stream makes a panic.
+//! Names and streams of any kind: what is printed commands no terminal, no stream makes a panic.
 
 use crate::common::{command, output, umbrage};
 use std::fs;

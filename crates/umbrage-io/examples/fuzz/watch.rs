@@ -1,5 +1,5 @@
-//! A second thread that ends the program where an input takes too long or too much memory. Starting
-//! it again goes on with the next input.
+//! A second thread that ends the program where an input takes too long or too much memory. Started
+//! again it takes the next input.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -33,7 +33,7 @@ pub(super) struct Appearance<'a> {
     textures: Vec<Texture>,
     /// Index into `materials` by index in the file; `None` is the default material.
     material_of: HashMap<Option<usize>, usize>,
-    /// Index into `textures` by index of the image and how it is sampled; `None` where it is missing.
+    /// Index into `textures` by index of the image and sampling; `None` where it is missing.
     texture_of: HashMap<(usize, Sampling), Option<usize>>,
     pixels: Budget,
 }

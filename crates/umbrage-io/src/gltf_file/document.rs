@@ -118,7 +118,7 @@ fn unpack<'a>(file: &File<'_>, bytes: &'a [u8]) -> Result<(&'a [u8], Option<&'a 
         rest = &rest[rest.len().min(size.next_multiple_of(4).wrapping_sub(size) as usize)..];
     }
     match chunks.as_slice() {
-        [(kind, json), rest @ ..] if kind == b"JSON" => {
+        [([b'J', b'S', b'O', b'N'], json), rest @ ..] => {
             let blob = rest.first().filter(|(kind, _)| kind == b"BIN\0");
             Ok((json, blob.map(|(_, chunk)| *chunk)))
         }
@@ -173,8 +173,8 @@ fn leave_out_other_targets(file: &mut File<'_>, root: &mut Value) {
 }
 
 /// What the `gltf` crate takes for granted: it panics on accessors out of range, on animations of
-/// nodes out of range and on cameras without their lens, and refuses positions without bounds, which
-/// are not needed here.
+/// nodes out of range and on cameras without their lens, and refuses positions without bounds,
+/// which are not needed here.
 fn make_safe_to_validate(file: &File<'_>, root: &mut Root) -> Result<(), Error> {
     let count = root.accessors.len();
     for (index, mesh) in root.meshes.iter().enumerate() {

@@ -147,7 +147,7 @@ impl Exr {
             .all_channels()
             .first_valid_layer()
             .all_attributes()
-            // Threads would go on, and hold memory, after an error.
+            // Threads would work on, and hold memory, after an error.
             .non_parallel()
             .from_buffered(Cursor::new(bytes))
             .map_err(|e| damaged(e.to_string()))?

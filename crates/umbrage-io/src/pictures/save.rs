@@ -126,8 +126,8 @@ fn save_channels(path: &Path, (width, height): (u32, u32), channels: Vec<(&str, 
 }
 
 /// Writes a file as a whole: into a temporary file beside it, which then takes its name. Whatever
-/// goes wrong, a file that was there before is still there. A symbolic link stays, and the file that
-/// it names is written; what is a device or a pipe is written into.
+/// goes wrong, a file that was there before is still there. A symbolic link stays, and the file
+/// that it names is written; what is a device or a pipe is written into.
 ///
 /// # Errors
 /// A folder that is missing or cannot be written to, a full disk.
