@@ -3,7 +3,8 @@
 //! Read are nodes, meshes (triangles, strips, fans), skins, animations of nodes, base-colour and
 //! roughness of materials, alpha masks with all that shapes them, perspective cameras and
 //! `KHR_lights_punctual`. Whatever else changes the picture is noted; what a file requires and is
-//! not read is an error. The `gltf` crate reads the JSON; bytes are read here, with every range checked. (Source: Khronos, "glTF 2.0 specification", version 2.0.1.)
+//! not read is an error. The `gltf` crate reads the JSON; bytes are read here, with every range
+//! checked. (Source: Khronos, "glTF 2.0 specification", version 2.0.1.)
 
 mod accessor;
 mod animation;
