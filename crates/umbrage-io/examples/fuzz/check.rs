@@ -1,6 +1,7 @@
 //! What has to be true of every input.
 
 use crate::corpus::Case;
+use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -10,11 +11,18 @@ use umbrage_io::{Error, open, pictures};
 pub struct Check {
     folder: PathBuf,
     command: PathBuf,
+    /// Inputs that opened.
+    opened: Cell<u64>,
 }
 
 impl Check {
     pub fn new(folder: &Path, command: &Path) -> Self {
-        Self { folder: folder.to_path_buf(), command: command.to_path_buf() }
+        Self { folder: folder.to_path_buf(), command: command.to_path_buf(), opened: Cell::new(0) }
+    }
+
+    /// How many inputs opened: where none does, their changes are too coarse to test much.
+    pub fn opened(&self) -> u64 {
+        self.opened.get()
     }
 
     /// Reads the input in this process.
@@ -28,10 +36,14 @@ impl Check {
                     pictures::load_mask(&path).map(drop),
                     pictures::load_rgb(&path).map(drop),
                 ];
+                self.opened.set(self.opened.get() + u64::from(loaded.iter().any(Result::is_ok)));
                 loaded.into_iter().filter_map(Result::err).try_for_each(|e| is_clear(&e, &path))
             }
             _ => match open(&path) {
-                Ok(opened) => opened.notes.iter().try_for_each(|note| is_one_line(note)).and(is_finite(&opened.scene)),
+                Ok(opened) => {
+                    self.opened.set(self.opened.get() + 1);
+                    opened.notes.iter().try_for_each(|note| is_one_line(note)).and(is_finite(&opened.scene))
+                }
                 Err(e) => is_clear(&e, &path),
             },
         };

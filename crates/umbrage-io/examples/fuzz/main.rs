@@ -42,7 +42,7 @@ fn main() {
     let folder = arguments.kept.join("now");
     std::fs::create_dir_all(&folder).expect("a folder for inputs");
     let started = Instant::now();
-    let watch = Watch::start(&folder, &arguments.kept);
+    let mut watch = Watch::start(&folder, &arguments.kept);
     let check = Check::new(&folder, &arguments.command);
     let corpus = corpus::all();
     let mut number = arguments.first;
@@ -50,7 +50,6 @@ fn main() {
     while started.elapsed() < arguments.time {
         let case = change(&corpus, number);
         case.write(&folder);
-        std::fs::write(arguments.kept.join("number.txt"), number.to_string()).expect("the number of the input");
         watch.begin(number);
         let mut found = check.read(&case);
         if found.is_ok() && number.is_multiple_of(THROUGH_COMMAND) {

@@ -1,7 +1,8 @@
 //! A second thread that ends the program where an input takes too long or too much memory. Started
 //! again it takes the next input.
 
-use std::fs;
+use std::fs::{self, File};
+use std::io::{Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
@@ -16,6 +17,8 @@ const MOST_BYTES: u64 = 1 << 30;
 pub struct Watch {
     began: Instant,
     now: Arc<Now>,
+    /// Holds the number of the input for whoever finds this program ended.
+    number: File,
 }
 
 #[derive(Default)]
@@ -27,7 +30,8 @@ struct Now {
 
 impl Watch {
     pub fn start(folder: &Path, kept: &Path) -> Self {
-        let watch = Self { began: Instant::now(), now: Arc::default() };
+        let number = File::create(kept.join("number.txt")).expect("a file for the number of the input");
+        let watch = Self { began: Instant::now(), now: Arc::default(), number };
         let (began, now) = (watch.began, watch.now.clone());
         let (folder, kept) = (folder.to_path_buf(), kept.to_path_buf());
         std::thread::spawn(move || {
@@ -51,7 +55,10 @@ impl Watch {
         watch
     }
 
-    pub fn begin(&self, number: u64) {
+    pub fn begin(&mut self, number: u64) {
+        // In place: a file that is emptied before it is written makes some systems wait for the disk.
+        let written = self.number.rewind().and_then(|()| write!(self.number, "{number:020}"));
+        written.expect("the number of the input");
         self.now.number.store(number, Relaxed);
         self.now.since_ms.store(1 + self.began.elapsed().as_millis() as u64, Relaxed);
     }
