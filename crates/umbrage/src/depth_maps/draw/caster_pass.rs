@@ -33,9 +33,9 @@ impl CasterPass {
         targets: &[Option<wgpu::ColorTargetState>],
         depth_stencil: Option<wgpu::DepthStencilState>,
     ) -> Self {
-        let layout = view_layout(gpu);
+        let (layout, of_casters, of_textures) = (view_layout(gpu), Casters::layout(gpu), texture_layout(gpu));
         let module = shader.module(gpu);
-        let groups = [Some(&layout), Some(&Casters::layout(gpu)), Some(&texture_layout(gpu))];
+        let groups = [Some(&layout), Some(&of_casters), Some(&of_textures)];
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             bind_group_layouts: &groups,
             ..Default::default()

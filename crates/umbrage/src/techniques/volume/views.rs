@@ -250,7 +250,8 @@ fn volume_pipeline(
     constants: &[(&str, f64)],
 ) -> wgpu::RenderPipeline {
     let module = VIEWS_SHADER.module(gpu);
-    let groups = [Some(silhouettes.layout()), Some(&Edges::draw_layout(gpu))];
+    let of_edges = Edges::draw_layout(gpu);
+    let groups = [Some(silhouettes.layout()), Some(&of_edges)];
     let layout = gpu
         .device
         .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { bind_group_layouts: &groups, ..Default::default() });

@@ -208,7 +208,8 @@ impl Views {
         let (gpu, key, entry) = (&self.gpu, drawn.key, self.entry());
         let shader = if entry == "add_wedge" { key.term.draw_shader() } else { shaders::VIEW_BODIES };
         let module = &shader.module(gpu);
-        let groups = [Some(&Receivers::layout(gpu)), Some(drawn.layout), Some(&key.term.layout(gpu))];
+        let (of_receivers, of_term) = (Receivers::layout(gpu), key.term.layout(gpu));
+        let groups = [Some(&of_receivers), Some(drawn.layout), Some(&of_term)];
         let groups = wgpu::PipelineLayoutDescriptor { bind_group_layouts: &groups, ..Default::default() };
         let clamps = gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL);
         let face = [("FACE", f64::from(key.face as u32)), ("SPLIT", f64::from(u8::from(key.split)))];
