@@ -5,6 +5,7 @@ mod bench;
 mod demo;
 mod docs;
 mod fuzz;
+mod portable;
 mod setup;
 mod shell;
 mod tables;
@@ -19,6 +20,8 @@ cargo xtask COMMAND
   setup   find a usable graphics adapter; where there is none, install Mesa's software Vulkan driver (Debian, Ubuntu)
   demo    compare the techniques on a few built-in scenes; ends in a table and out/demo/index.html
   test    run the whole test suite
+  portable
+          check that the library compiles for browsers, and with the oldest toolchain that is promised
   bench   measure the standard set of scenes and write benchmarks/<date>-<machine>/
   fuzz MINUTES
           read damaged files of every kind; what fails is kept in out/fuzz/
@@ -48,6 +51,7 @@ fn run() -> Result<()> {
         ["setup"] => setup::run(shell::Profile::Dev).map(|_| ()),
         ["demo"] => demo::run(),
         ["test", rest @ ..] => test::run(rest),
+        ["portable"] => portable::run(),
         ["bench"] => bench::run(),
         ["fuzz", minutes] => fuzz::run(minutes),
         ["docs"] => docs::tables(),

@@ -48,14 +48,11 @@ impl Found {
     }
 }
 
-/// Backends that every technique runs on; OpenGL is a last resort that lacks what some need.
-const USABLE: [&str; 3] = ["Vulkan", "Metal", "Dx12"];
-
 /// The usable adapters that `umbrage` sees; `None` where there is none.
 fn adapters(list: Command) -> Result<Option<Found>> {
     let json: Value = serde_json::from_str(&shell::output(list)?).context("`umbrage list --json` printed no JSON")?;
     let list = json["adapters"].as_array().context("`umbrage list --json` has no list of adapters")?;
-    let usable = |a: &&Value| a["backend"].as_str().is_some_and(|backend| USABLE.contains(&backend));
+    let usable = |a: &&Value| a["unusable"].is_null();
     let list: Vec<&Value> = list.iter().filter(usable).collect();
     let name = |a: &&Value| format!("{} ({})", a["name"].as_str().unwrap_or("?"), a["kind"].as_str().unwrap_or("?"));
     let names = list.iter().map(name).collect::<Vec<_>>().join(", ");

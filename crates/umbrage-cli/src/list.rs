@@ -71,8 +71,7 @@ fn as_json(entries: &[Entry], adapters: &[AdapterSummary]) -> String {
                 "params": e.params.iter().map(param).collect::<Vec<Value>>(), "views": e.views })
     };
     let scene = |s: &umbrage_core::scenes::SceneEntry| json!({ "id": s.id, "title": s.title, "about": s.about });
-    let adapter =
-        |a: &AdapterSummary| json!({ "name": a.name, "backend": a.backend, "kind": a.kind, "driver": a.driver });
+    let adapter = |a: &AdapterSummary| json!({ "name": a.name, "backend": a.backend, "kind": a.kind, "driver": a.driver, "unusable": a.unusable });
     let all = json!({
         "schema": umbrage_report::record::SCHEMA,
         "techniques": entries.iter().map(technique).collect::<Vec<Value>>(),
@@ -101,10 +100,11 @@ fn as_text(entries: &[Entry], adapters: &[AdapterSummary]) -> String {
     }
     text += "\nGraphics adapters (--adapter takes the number, a part of the name, or `software`)\n";
     for (i, a) in adapters.iter().enumerate() {
-        text += &format!("  {i}  {} ({}, {}, {})\n", a.name, a.kind, a.backend, a.driver);
+        let reason = a.unusable.as_ref().map_or(String::new(), |why| format!(": can't be used, since {why}"));
+        text += &format!("  {i}  {} ({}, {}, {}){reason}\n", a.name, a.kind, a.backend, a.driver);
     }
-    if adapters.is_empty() {
-        text += "  none: install a Vulkan driver, or run `cargo xtask setup`\n";
+    if adapters.iter().all(|a| a.unusable.is_some()) {
+        text += "  none that can be used: install a Vulkan driver, or run `cargo xtask setup`\n";
     }
     text
 }

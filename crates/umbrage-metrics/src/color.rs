@@ -1,6 +1,7 @@
 //! Errors of finished pictures.
 
 use crate::error::{Error, same_size};
+#[cfg(feature = "flip")]
 use crate::flip;
 use umbrage_core::Image;
 
@@ -14,6 +15,7 @@ pub struct ColorScores {
     /// Peak signal-to-noise ratio in decibels; `None` for equal pictures, which have no noise.
     pub psnr_db: Option<f64>,
     /// Mean ꟻLIP, see [`crate::Scores::flip`].
+    #[cfg(feature = "flip")]
     pub flip: f64,
 }
 
@@ -38,6 +40,7 @@ pub fn color_scores(produced: &Image<[u8; 3]>, reference: &Image<[u8; 3]>) -> Re
         mae: absolute / count,
         rmse: mean_square.sqrt(),
         psnr_db: (mean_square > 0.0).then(|| -10.0 * mean_square.log10()),
+        #[cfg(feature = "flip")]
         flip: flip::of_colors(produced, reference),
     })
 }

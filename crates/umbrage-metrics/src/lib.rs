@@ -12,6 +12,7 @@ mod color;
 mod discontinuity;
 mod error;
 mod flicker;
+#[cfg(feature = "flip")]
 mod flip;
 mod footprint;
 mod heat;

@@ -1,7 +1,9 @@
 //! Errors of a visibility picture against a reference.
 
 use crate::error::{Error, same_size};
-use crate::{flip, interior::interior, ssim};
+#[cfg(feature = "flip")]
+use crate::flip;
+use crate::{interior::interior, ssim};
 use umbrage_core::Image;
 
 /// A pixel is correct where its visibility is off by no more than this.
@@ -38,7 +40,8 @@ pub struct Scores {
     pub ssim: f64,
     /// Mean of ꟻLIP, the difference that somebody sees who flips between the two as sRGB pictures,
     /// 0…1: Andersson et al., "ꟻLIP: A Difference Evaluator for Alternating Images", 2020, 67
-    /// pixels a degree.
+    /// pixels a degree. It needs the feature `flip` of the crate, and with it a C++ compiler.
+    #[cfg(feature = "flip")]
     pub flip: f64,
     /// Percentage of pixels with |d| ≤ [`TOLERANCE`].
     pub correct_pct: f64,
@@ -85,6 +88,7 @@ pub fn score(comparison: &Comparison<'_>) -> Result<Scores, Error> {
         rmse: mean(&|d| d * d).sqrt(),
         p99: percentile(&sorted(errors.iter().map(|d| d.abs())), 0.99),
         ssim: ssim::ssim(produced, reference, mask),
+        #[cfg(feature = "flip")]
         flip: flip::of_visibility(produced, reference, mask),
         correct_pct: correct_pct(&errors).unwrap_or(0.0),
         interior_pct: correct_pct(&inside),

@@ -4,10 +4,9 @@ use crate::shaft::Shaft;
 use crate::triangle::{Ray, SeenTriangle, Triangle};
 use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::{Bvh2, builder::build_bvh2};
+use obvhs::bvh2::{Bvh2, leaf_collapser::collapse, reinsertion::ReinsertionOptimizer};
 use obvhs::ray::{Ray as BoxRay, RayHit};
-use obvhs::{Boundable, BvhBuildParams};
-use std::time::Duration;
+use obvhs::{Boundable, BvhBuildParams, ploc::PlocBuilder};
 
 /// Boxes are grown by this share of the largest coordinate. A ray's origin is at most about eight
 /// largest coordinates off, so that rounding it and the slab test move a box by less than 8 · 6
@@ -37,8 +36,7 @@ impl Bvh {
         if triangles.is_empty() {
             return Self { tree: Bvh2::default(), triangles, largest };
         }
-        // The builder insists on a clock's reading, which nobody needs.
-        let tree = build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Duration::default());
+        let tree = build(&boxes);
         let triangles = tree.primitive_indices.iter().filter_map(|&i| triangles.get(i as usize).cloned()).collect();
         Self { tree, triangles, largest }
     }
@@ -150,6 +148,26 @@ impl Bvh {
     fn rounded_up(&self, length: f64) -> f32 {
         (length * (1.0 + 1e-6) + PADDING * self.largest) as f32
     }
+}
+
+/// The hierarchy over `boxes`: `obvhs::bvh2::builder::build_bvh2` without the clock that it reads,
+/// since browsers have none where it looks.
+fn build(boxes: &[Padded]) -> Bvh2 {
+    let params = BvhBuildParams::medium_build();
+    let numbers = (0..boxes.len() as u32).collect();
+    let mut tree = PlocBuilder::with_capacity(boxes.len()).build(
+        params.ploc_search_distance,
+        boxes,
+        numbers,
+        params.sort_precision,
+        params.search_depth_threshold,
+    );
+    let again = params.reinsertion_batch_ratio * params.post_collapse_reinsertion_batch_ratio_multiplier;
+    let mut optimizer = ReinsertionOptimizer::default();
+    optimizer.run(&mut tree, params.reinsertion_batch_ratio, None);
+    collapse(&mut tree, params.max_prims_per_leaf.clamp(1, 255), params.collapse_traversal_cost);
+    optimizer.run(&mut tree, again, None);
+    tree
 }
 
 /// The box of a triangle, grown.

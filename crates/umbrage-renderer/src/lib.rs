@@ -18,6 +18,7 @@ mod gbuffer;
 mod lit;
 mod overlay;
 mod radiance;
+#[cfg(not(target_family = "wasm"))]
 mod read_back;
 mod shading;
 mod targets;
@@ -27,11 +28,11 @@ use gbuffer::GBufferPass;
 use lit::{Lit, Target, Visible};
 use overlay::Overlay;
 use shading::Shading;
-use std::time::{Duration, Instant};
 use targets::{PICTURE, Targets};
 use tonemap::ToneMap;
 use umbrage::{Casters, Error, Gpu, Owner, PassTime, Passes, Recorder, Shader, Stats, Technique};
 use umbrage_core::{Camera, Light, LightShape, Scene, Texture};
+use web_time::{Duration, Instant};
 
 /// Every shader of the renderer, for tests.
 pub const SHADERS: &[Shader] = &[gbuffer::SHADER, overlay::SHADER, radiance::SHADER, shading::SHADER, tonemap::SHADER];
@@ -174,10 +175,22 @@ impl Renderer {
         self.gpu.check()
     }
 
+    /// The tone-mapped picture of the last [`Renderer::frame`], sRGB and opaque: to be sampled or
+    /// copied from. Another one after [`Renderer::resize`].
+    pub fn picture(&self) -> &wgpu::Texture {
+        &self.targets.picture
+    }
+
+    /// A view of all of [`Renderer::picture`].
+    pub fn picture_view(&self) -> &wgpu::TextureView {
+        &self.targets.picture_view
+    }
+
     /// Waits until submitted frames are done.
     ///
     /// # Errors
     /// [`Error::DeviceLost`] and [`Error::Driver`].
+    #[cfg(not(target_family = "wasm"))]
     pub fn wait(&self) -> Result<(), Error> {
         self.gpu.wait()
     }

@@ -1,21 +1,11 @@
-//! What a renderer hands out: its picture, and what it is made of, read back for files and tests.
+//! What a renderer hands out, read back for files and tests: its picture, and what it is made of.
+//! All of it waits for the device; in a browser, `umbrage::read::later` reads the picture.
 
 use crate::{Renderer, lit::Target, no_pass};
 use umbrage::{Answer, DebugView, Error, read};
 use umbrage_core::{Camera, Image};
 
 impl Renderer {
-    /// The tone-mapped picture of the last [`Renderer::frame`], sRGB and opaque: to be sampled or
-    /// copied from. Another one after [`Renderer::resize`].
-    pub fn picture(&self) -> &wgpu::Texture {
-        &self.targets.picture
-    }
-
-    /// A view of all of [`Renderer::picture`].
-    pub fn picture_view(&self) -> &wgpu::TextureView {
-        &self.targets.picture_view
-    }
-
     /// [`Renderer::picture`], read back.
     ///
     /// # Errors
@@ -58,7 +48,7 @@ impl Renderer {
     /// # Errors
     /// As [`Renderer::color`].
     pub fn depth(&self, camera: &Camera) -> Result<Image<f32>, Error> {
-        let stored = read::one_channel(&self.gpu, &self.targets.gbuffer.depth, 0)?;
+        let stored = read::one_channel(&self.gpu, self.targets.gbuffer.depth_view.texture(), 0)?;
         Ok(stored.map(|d| if *d > 0.0 { camera.near as f32 / d } else { 0.0 }))
     }
 
@@ -68,8 +58,8 @@ impl Renderer {
     /// As [`Renderer::color`].
     pub fn normal(&self) -> Result<Image<[f32; 3]>, Error> {
         let (packed, depth) = (
-            read::packed_normals(&self.gpu, &self.targets.gbuffer.normal)?,
-            read::one_channel(&self.gpu, &self.targets.gbuffer.depth, 0)?,
+            read::packed_normals(&self.gpu, self.targets.gbuffer.normal_view.texture())?,
+            read::one_channel(&self.gpu, self.targets.gbuffer.depth_view.texture(), 0)?,
         );
         Ok(Image::from_fn(
             packed.width,

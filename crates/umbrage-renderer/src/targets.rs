@@ -25,14 +25,12 @@ pub(crate) struct Targets {
 
 /// What the camera sees, and the light that comes from there.
 pub(crate) struct GBuffer {
-    pub depth: wgpu::Texture,
     /// Of the depth alone.
     pub depth_view: wgpu::TextureView,
     /// Of depth and stencil, for techniques that count in it; `None` where the adapter has no such
     /// format.
     pub stencil_view: Option<wgpu::TextureView>,
     /// Geometric normal turned to the eye, packed.
-    pub normal: wgpu::Texture,
     pub normal_view: wgpu::TextureView,
     /// Shading normal, and shininess: negative where no shadow falls.
     pub shading_view: wgpu::TextureView,
@@ -75,9 +73,7 @@ impl GBuffer {
         Self {
             depth_view: depth.create_view(&depth_alone),
             stencil_view: depth.format().has_stencil_aspect().then(|| view(&depth)),
-            depth,
             normal_view: view(&normal),
-            normal,
             shading_view: view(&texture("shading normal", WIDE)),
             color_view: view(&texture("base colour", WIDE)),
             radiance_view: view(&texture("radiance", WIDE)),

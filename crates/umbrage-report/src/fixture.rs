@@ -16,6 +16,7 @@ pub(crate) fn fixture() -> Report {
         backend: "Vulkan".into(),
         kind: "software",
         driver: "Mesa".into(),
+        unusable: None,
     };
     let result = |technique: &str, status, reason: Option<&str>| ResultRecord {
         technique: technique.into(),

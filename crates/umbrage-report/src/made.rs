@@ -48,7 +48,7 @@ pub struct Adapter {
 
 impl From<&AdapterSummary> for Adapter {
     fn from(summary: &AdapterSummary) -> Self {
-        let AdapterSummary { name, backend, kind, driver } = summary;
+        let AdapterSummary { name, backend, kind, driver, .. } = summary;
         Self { name: name.clone(), backend: backend.clone(), kind: (*kind).into(), driver: driver.clone() }
     }
 }

@@ -1,8 +1,7 @@
 //! What a technique answers, and the target of the second kind of answer.
 
 use crate::fullscreen::{attachment, target_texture};
-use crate::{error::Error, gpu::Gpu, read, receivers::Receivers, visibility::same_size};
-use umbrage_core::Image;
+use crate::{error::Error, gpu::Gpu, receivers::Receivers, visibility::same_size};
 
 /// What a technique leaves in its target.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -73,14 +72,6 @@ impl RadianceTarget {
     /// read.
     pub fn overwrite(&self) -> Option<wgpu::RenderPassColorAttachment<'_>> {
         attachment(&self.view, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT))
-    }
-
-    /// The values, read back: for files and tests, since it waits for the GPU.
-    ///
-    /// # Errors
-    /// [`Error::DeviceLost`] and [`Error::Driver`].
-    pub fn read(&self, gpu: &Gpu) -> Result<Image<[f32; 3]>, Error> {
-        read::half_colors(gpu, &self.texture)
     }
 
     /// Bytes of GPU memory.

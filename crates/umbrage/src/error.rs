@@ -6,10 +6,10 @@ pub enum Error {
     /// No adapter fits.
     #[error(
         "no usable graphics adapter{}; install a Vulkan driver (Debian, Ubuntu: apt-get install mesa-vulkan-drivers), or run `cargo xtask setup`",
-        if .found.is_empty() { String::new() } else { format!(" of that name (there are: {found})") }
+        if .found.is_empty() { String::new() } else { format!(" ({found})") }
     )]
     NoAdapter {
-        /// Names of the adapters that are there.
+        /// The adapters that are there, each with the reason why it can't be used.
         found: String,
     },
     /// The driver refused a device.

@@ -1,7 +1,14 @@
 //! The device: an adapter of ours, or a host's own.
 
-use crate::error::{Error, nearest};
+mod adapter;
+mod arrival;
+#[cfg(not(target_family = "wasm"))]
+mod blocking;
+
+use crate::error::Error;
 use crate::snapping;
+pub use adapter::AdapterSummary;
+pub(crate) use arrival::arrival;
 use std::sync::{Arc, Mutex, OnceLock};
 use wgpu::util::DeviceExt;
 
@@ -17,33 +24,6 @@ pub struct Gpu {
     snapping: Arc<OnceLock<f32>>,
 }
 
-/// What a user wants to know of an adapter.
-#[derive(Clone, Debug, PartialEq)]
-pub struct AdapterSummary {
-    /// The name the driver gives.
-    pub name: String,
-    /// `Vulkan`, `Metal`, …
-    pub backend: String,
-    /// `software`, `integrated`, `discrete`, `virtual` or `other`.
-    pub kind: &'static str,
-    /// Driver and version.
-    pub driver: String,
-}
-
-impl AdapterSummary {
-    fn of(info: &wgpu::AdapterInfo) -> Self {
-        let kind = match info.device_type {
-            wgpu::DeviceType::Cpu => "software",
-            wgpu::DeviceType::IntegratedGpu => "integrated",
-            wgpu::DeviceType::DiscreteGpu => "discrete",
-            wgpu::DeviceType::VirtualGpu => "virtual",
-            wgpu::DeviceType::Other => "other",
-        };
-        let driver = format!("{} {}", info.driver, info.driver_info).trim().to_string();
-        Self { name: info.name.clone(), backend: format!("{:?}", info.backend), kind, driver }
-    }
-}
-
 impl Gpu {
     /// Features that make techniques faster or more exact and are asked for where the adapter has
     /// them. Every technique either works without them or says that it can't.
@@ -54,47 +34,28 @@ impl Gpu {
         .union(wgpu::Features::FLOAT32_BLENDABLE)
         .union(wgpu::Features::INDIRECT_FIRST_INSTANCE);
 
-    /// The adapters of this machine, best first, software ones last.
-    pub fn adapters() -> Vec<AdapterSummary> {
-        enumerate().iter().map(|a| AdapterSummary::of(&a.get_info())).collect()
+    /// The adapters of this machine, best first, software ones last; those that can't be used come
+    /// with their reason. In a browser it is the one that the browser chooses.
+    pub async fn adapters_async() -> Vec<AdapterSummary> {
+        adapter::enumerate().await.iter().map(AdapterSummary::of).collect()
     }
 
     /// A device of the best adapter, or of the one `wanted` names: a part of its name or kind
-    /// (`software`, `nvidia`, …), or its number in [`Gpu::adapters`].
+    /// (`software`, `nvidia`, …), or its number in [`Gpu::adapters_async`].
     ///
     /// # Errors
     /// [`Error::NoAdapter`], [`Error::Unknown`] or [`Error::NoDevice`].
-    pub fn request(wanted: Option<&str>) -> Result<Self, Error> {
-        let adapters = enumerate();
-        let names: Vec<String> = adapters.iter().map(|a| a.get_info().name).collect();
-        let found = match wanted {
-            None => adapters.into_iter().next(),
-            Some(w) => {
-                let matches = |(i, a): &(usize, wgpu::Adapter)| {
-                    let s = AdapterSummary::of(&a.get_info());
-                    let text = format!("{} {} {}", s.name, s.kind, s.backend).to_lowercase();
-                    w.parse() == Ok(*i) || text.contains(&w.to_lowercase())
-                };
-                adapters.into_iter().enumerate().find(matches).map(|(_, a)| a)
-            }
-        };
-        let Some(adapter) = found else {
-            return Err(match wanted {
-                Some(name) if !names.is_empty() => Error::Unknown {
-                    what: "adapter",
-                    name: name.into(),
-                    nearest: nearest(name, names.iter().map(String::as_str)).or_else(|| names.first().cloned()),
-                },
-                _ => Error::NoAdapter { found: names.join(", ") },
-            });
-        };
+    pub async fn request_async(wanted: Option<&str>) -> Result<Self, Error> {
+        let adapter = adapter::choose(adapter::enumerate().await, wanted)?;
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("umbrage"),
             required_features: adapter.features() & Self::WANTED,
             required_limits: adapter.limits(),
             ..Default::default()
         };
-        let (device, queue) = block_on(adapter.request_device(&descriptor))
+        let (device, queue) = adapter
+            .request_device(&descriptor)
+            .await
             .map_err(|e| Error::NoDevice { adapter: adapter.get_info().name, reason: e.to_string() })?;
         let gpu = Self::new(device, queue);
         let trouble = gpu.trouble.clone();
@@ -103,12 +64,15 @@ impl Gpu {
         gpu.device.set_device_lost_callback(move |reason, text| {
             report(&trouble, Error::DeviceLost(format!("{reason:?} {text}").trim().to_string()));
         });
+        if cfg!(target_family = "wasm") {
+            gpu.measure_async().await;
+        }
         Ok(gpu)
     }
 
     /// A host's own device. The host keeps its error and device-lost handlers.
     pub fn new(device: wgpu::Device, queue: wgpu::Queue) -> Self {
-        let adapter = AdapterSummary::of(&device.adapter_info());
+        let adapter = AdapterSummary::of_info(&device.adapter_info());
         Self { device, queue, adapter, trouble: Arc::default(), snapping: Arc::default() }
     }
 
@@ -124,10 +88,24 @@ impl Gpu {
 
     /// Pixels by which the rasteriser may shift a surface, since it snaps corners of triangles:
     /// measured once, which waits for the device, or what every device keeps to where it can't be
-    /// measured.
+    /// measured. In a browser it is what [`Gpu::measure_async`] has found before.
     pub(crate) fn snapping(&self) -> f32 {
-        let measured = || snapping::measured(self).unwrap_or(snapping::GUARANTEED);
-        *self.snapping.get_or_init(measured)
+        #[cfg(not(target_family = "wasm"))]
+        let found = self.snapping.get_or_init(|| self.finish(snapping::measured(self)).unwrap_or(snapping::GUARANTEED));
+        #[cfg(target_family = "wasm")]
+        let found = self.snapping.get().unwrap_or(&snapping::GUARANTEED);
+        *found
+    }
+
+    /// Measures how exactly the device rasterises, which maps allow for. Where threads may wait,
+    /// the first technique with maps does so by itself. In a browser, a host with a device of its
+    /// own calls this once; without it, maps allow for the coarsest device there may be.
+    pub async fn measure_async(&self) {
+        if self.snapping.get().is_none() {
+            let found = snapping::measured(self).await.unwrap_or(snapping::GUARANTEED);
+            // Whoever was faster has found the same.
+            let _ = self.snapping.set(found);
+        }
     }
 
     /// The first error that the driver reported out of order, if any; a lost device stays lost.
@@ -141,14 +119,16 @@ impl Gpu {
         }
     }
 
-    /// Waits until all submitted work is done.
+    /// Waits until all work that was submitted before is done. In a browser it is told by itself;
+    /// elsewhere somebody has to poll the device meanwhile.
     ///
     /// # Errors
-    /// As [`Gpu::check`], and where the driver gives up waiting.
-    pub fn wait(&self) -> Result<(), Error> {
-        let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
-        self.check()?;
-        polled.map(|_| ()).map_err(|e| Error::Driver(e.to_string()))
+    /// As [`Gpu::check`].
+    pub async fn wait_async(&self) -> Result<(), Error> {
+        let (report, done) = arrival();
+        self.queue.on_submitted_work_done(move || report.arrive(()));
+        done.await;
+        self.check()
     }
 
     /// Does `work` and takes what the driver reports meanwhile as its error, where [`Gpu::check`]
@@ -156,12 +136,15 @@ impl Gpu {
     ///
     /// # Errors
     /// That of `work`, or else [`Error::Driver`].
-    pub fn catch<T, E: From<Error>>(&self, work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
+    pub async fn catch_async<T, E: From<Error>>(&self, work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
         use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
         let scopes = [Validation, OutOfMemory, Internal].map(|filter| self.device.push_error_scope(filter));
         let done = work();
+        let mut reported = None;
         // The last one pushed is the first to go.
-        let reported = scopes.into_iter().rev().filter_map(|scope| block_on(scope.pop())).last();
+        for scope in scopes.into_iter().rev() {
+            reported = scope.pop().await.or(reported);
+        }
         match (done, reported) {
             (Ok(_), Some(error)) => Err(Error::Driver(error.to_string()).into()),
             (done, _) => done,
@@ -197,25 +180,4 @@ fn report(trouble: &Mutex<Option<Error>>, error: Error) {
     {
         *slot = Some(error);
     }
-}
-
-/// All adapters, hardware first.
-fn enumerate() -> Vec<wgpu::Adapter> {
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
-    let mut adapters = block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
-    if adapters.is_empty() {
-        adapters = block_on(instance.enumerate_adapters(wgpu::Backends::all()));
-    }
-    adapters.sort_by_key(|a| match a.get_info().device_type {
-        wgpu::DeviceType::DiscreteGpu => 0,
-        wgpu::DeviceType::IntegratedGpu => 1,
-        wgpu::DeviceType::VirtualGpu => 2,
-        wgpu::DeviceType::Other => 3,
-        wgpu::DeviceType::Cpu => 4,
-    });
-    adapters
-}
-
-pub(crate) fn block_on<F: Future>(future: F) -> F::Output {
-    pollster::block_on(future)
 }

@@ -40,6 +40,7 @@ struct Readme;
 mod answer;
 mod area_light;
 pub mod baseline;
+mod bvh;
 mod casters;
 pub mod depth_maps;
 mod error;

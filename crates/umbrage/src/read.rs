@@ -1,115 +1,68 @@
-//! Pictures back from the GPU. For files and tests; waits for the device.
+//! Pictures back from the GPU. For files and tests; waits for the device, which browsers do not
+//! allow: there, [`later`] has the same as futures.
 //!
 //! All of them give [`Error::DeviceLost`] and [`Error::Driver`].
 
-use crate::{error::Error, gpu::Gpu};
-use half::f16;
-use umbrage_core::Image;
-use umbrage_core::glam::Vec3;
+pub mod later;
 
-/// 8-bit colour, as it is stored.
-///
-/// # Errors
-/// See the module.
-pub fn rgba8(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[u8; 4]>, Error> {
-    let bytes = rows(gpu, texture, 0)?;
-    Ok(image(texture, bytes.as_chunks::<4>().0.to_vec()))
-}
+#[cfg(not(target_family = "wasm"))]
+pub use now::{half_colors, one_channel, packed_normals, rgba8};
 
-/// Depth or a single float channel, full or half, of a layer.
-///
-/// # Errors
-/// See the module; [`Error::Driver`] for a format of another kind, too.
-pub fn one_channel(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Result<Image<f32>, Error> {
-    let bytes = rows(gpu, texture, layer)?;
-    let data = match texture.format() {
-        wgpu::TextureFormat::R16Float => halves(&bytes),
-        wgpu::TextureFormat::R32Float
-        | wgpu::TextureFormat::Depth32Float
-        | wgpu::TextureFormat::Depth32FloatStencil8 => {
-            bytes.as_chunks::<4>().0.iter().map(|b| f32::from_le_bytes(*b)).collect()
+#[cfg(not(target_family = "wasm"))]
+mod now {
+    use super::later;
+    use crate::{RadianceTarget, VisibilityTarget, error::Error, gpu::Gpu};
+    use umbrage_core::Image;
+
+    /// 8-bit colour, as it is stored.
+    ///
+    /// # Errors
+    /// See the module.
+    pub fn rgba8(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[u8; 4]>, Error> {
+        gpu.finish(later::rgba8(gpu, texture))
+    }
+
+    /// Depth or a single float channel, full or half, of a layer.
+    ///
+    /// # Errors
+    /// See the module; [`Error::Driver`] for a format of another kind, too.
+    pub fn one_channel(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Result<Image<f32>, Error> {
+        gpu.finish(later::one_channel(gpu, texture, layer))
+    }
+
+    /// Red, green and blue of `Rgba16Float`.
+    ///
+    /// # Errors
+    /// See the module.
+    pub fn half_colors(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[f32; 3]>, Error> {
+        gpu.finish(later::half_colors(gpu, texture))
+    }
+
+    /// Unit vectors that `pack_normal` packed, see [`crate::wgsl::PACK_NORMAL`].
+    ///
+    /// # Errors
+    /// See the module.
+    pub fn packed_normals(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[f32; 3]>, Error> {
+        gpu.finish(later::packed_normals(gpu, texture))
+    }
+
+    impl VisibilityTarget {
+        /// The values, read back: for files and tests, since it waits for the GPU.
+        ///
+        /// # Errors
+        /// [`Error::DeviceLost`] and [`Error::Driver`].
+        pub fn read(&self, gpu: &Gpu) -> Result<Image<f32>, Error> {
+            one_channel(gpu, &self.texture, 0)
         }
-        other => return Err(Error::Driver(format!("pictures of {other:?} textures can't be read back"))),
-    };
-    Ok(image(texture, data))
-}
+    }
 
-/// Red, green and blue of `Rgba16Float`.
-///
-/// # Errors
-/// See the module.
-pub fn half_colors(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[f32; 3]>, Error> {
-    let values = halves(&rows(gpu, texture, 0)?);
-    Ok(image(texture, values.as_chunks::<4>().0.iter().map(|&[r, g, b, _]| [r, g, b]).collect()))
-}
-
-/// Unit vectors that `pack_normal` packed, see [`crate::wgsl::PACK_NORMAL`].
-///
-/// # Errors
-/// See the module.
-pub fn packed_normals(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image<[f32; 3]>, Error> {
-    let bytes = rows(gpu, texture, 0)?;
-    let unpack = |b: &[u8; 4]| {
-        let part = |low, high| f32::from(i16::from_le_bytes([low, high])).max(-32767.0) / 32767.0;
-        let (x, y) = (part(b[0] & 0xfe, b[1]), part(b[2], b[3]));
-        let z = 1.0 - x.abs() - y.abs();
-        let fold = (-z).max(0.0);
-        let sign = |v: f32| {
-            if v > 0.0 {
-                1.0
-            } else if v < 0.0 {
-                -1.0
-            } else {
-                0.0
-            }
-        };
-        Vec3::new(x - fold * sign(x), y - fold * sign(y), z).normalize_or_zero().to_array()
-    };
-    Ok(image(texture, bytes.as_chunks::<4>().0.iter().map(unpack).collect()))
-}
-
-fn halves(bytes: &[u8]) -> Vec<f32> {
-    bytes.as_chunks::<2>().0.iter().map(|b| f16::from_le_bytes(*b).to_f32()).collect()
-}
-
-fn image<T>(texture: &wgpu::Texture, data: Vec<T>) -> Image<T> {
-    Image { width: texture.width(), height: texture.height(), data }
-}
-
-/// The texels of a layer without padding between rows.
-fn rows(gpu: &Gpu, texture: &wgpu::Texture, layer: u32) -> Result<Vec<u8>, Error> {
-    let (width, height) = (texture.width(), texture.height());
-    // Of a format with stencil the depth is read.
-    let has_stencil = texture.format().has_stencil_aspect();
-    let aspect = if has_stencil { wgpu::TextureAspect::DepthOnly } else { wgpu::TextureAspect::All };
-    let texel = texture.format().block_copy_size(Some(aspect)).unwrap_or(4);
-    let row = width * texel;
-    let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("picture back"),
-        size: u64::from(padded) * u64::from(height),
-        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-        mapped_at_creation: false,
-    });
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    encoder.copy_texture_to_buffer(
-        wgpu::TexelCopyTextureInfo { texture, mip_level: 0, origin: wgpu::Origin3d { x: 0, y: 0, z: layer }, aspect },
-        wgpu::TexelCopyBufferInfo {
-            buffer: &buffer,
-            layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded), rows_per_image: None },
-        },
-        wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-    );
-    gpu.queue.submit([encoder.finish()]);
-    let (sender, receiver) = std::sync::mpsc::channel();
-    buffer.slice(..).map_async(wgpu::MapMode::Read, move |result| {
-        // The receiver waits below; if it is gone the device was lost, which is reported there.
-        let _ = sender.send(result);
-    });
-    gpu.wait()?;
-    let failed = || Error::Driver("a picture could not be read back".into());
-    receiver.recv().map_err(|_| failed())?.map_err(|_| failed())?;
-    let mapped = buffer.slice(..).get_mapped_range().map_err(|_| failed())?;
-    let bytes = mapped.chunks(padded as usize).flat_map(|r| &r[..row as usize]).copied().collect();
-    Ok(bytes)
+    impl RadianceTarget {
+        /// The values, read back: for files and tests, since it waits for the GPU.
+        ///
+        /// # Errors
+        /// [`Error::DeviceLost`] and [`Error::Driver`].
+        pub fn read(&self, gpu: &Gpu) -> Result<Image<[f32; 3]>, Error> {
+            half_colors(gpu, &self.texture)
+        }
+    }
 }

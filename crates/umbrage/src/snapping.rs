@@ -6,7 +6,7 @@
 //! is off its own plane by more than depths are rounded, and would shadow itself. Where a device
 //! finds depth from corners behind the eye, the shift of those is taken farther.
 
-use crate::{Error, Gpu, read};
+use crate::{Error, Gpu, read::later};
 use umbrage_core::Image;
 use umbrage_core::glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 
@@ -29,10 +29,10 @@ const NEAR: f64 = 0.5;
 /// Pixels by which surfaces are shifted at most, across and down together.
 ///
 /// # Errors
-/// Those of [`read`].
-pub(crate) fn measured(gpu: &Gpu) -> Result<f32, Error> {
+/// Those of [`later`].
+pub(crate) async fn measured(gpu: &Gpu) -> Result<f32, Error> {
     let triangles: Vec<Triangle> = (0..(SIZE / CELL).pow(2)).map(Triangle::number).collect();
-    let depth = read::one_channel(gpu, &draw(gpu, &triangles), 0)?;
+    let depth = later::one_channel(gpu, &draw(gpu, &triangles), 0).await?;
     let most = triangles.iter().map(|t| t.shift_in(&depth)).fold(0.0, f64::max);
     Ok((TO_SPARE * most).min(1.0) as f32)
 }

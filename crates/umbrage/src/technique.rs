@@ -11,7 +11,7 @@ use umbrage_core::{LightKind, LightKinds, light_view::LightView};
 /// the eye because of it, see [`Answer`].
 ///
 /// A frame is `prepare`, then `record`; both with the same view.
-pub trait Technique: Any + Send {
+pub trait Technique: Any + wgpu::WasmNotSend {
     /// Everything the CPU does for this frame: fits light views, chooses casters, makes room.
     /// Creates GPU objects only in the first frame and when a size or the kind of light changes.
     ///

@@ -1,8 +1,7 @@
 //! The visibility buffer: the one thing every technique writes.
 
 use crate::fullscreen::{attachment, target_texture};
-use crate::{error::Error, gpu::Gpu, read, receivers::Receivers};
-use umbrage_core::Image;
+use crate::{error::Error, gpu::Gpu, receivers::Receivers};
 
 /// The share of one light that each pixel sees, 0…1, as `R16Float`. PX calls it the LI buffer, SG
 /// the V-buffer.
@@ -43,14 +42,6 @@ impl VisibilityTarget {
     /// read.
     pub fn overwrite(&self) -> Option<wgpu::RenderPassColorAttachment<'_>> {
         attachment(&self.view, wgpu::LoadOp::Clear(wgpu::Color::WHITE))
-    }
-
-    /// The values, read back: for files and tests, since it waits for the GPU.
-    ///
-    /// # Errors
-    /// [`Error::DeviceLost`] and [`Error::Driver`].
-    pub fn read(&self, gpu: &Gpu) -> Result<Image<f32>, Error> {
-        read::one_channel(gpu, &self.texture, 0)
     }
 
     /// Bytes of GPU memory.

@@ -145,3 +145,50 @@ fn without_an_adapter_the_remedy_is_named_and_the_ray_tracer_still_works() {
     let traced = run("ray-traced");
     assert!(traced.status.success(), "{}", String::from_utf8_lossy(&traced.stderr));
 }
+
+#[test]
+fn adapters_that_cannot_do_the_work_are_refused_before_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // Without Vulkan there is at most OpenGL, whose shaders can't read depth buffers.
+    let run = |line: &str| {
+        let mut command = command(folder.path(), &line.split(' ').collect::<Vec<_>>());
+        let output = command.envs([("VK_DRIVER_FILES", "/none"), ("VK_ICD_FILENAMES", "/none")]).output();
+        let output = output.expect("the command starts");
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+        (output.status.code(), text(output.stdout), text(output.stderr))
+    };
+    for line in [
+        "compare contact --light 0 --techniques pcf,vsm --size 32x24 -o out",
+        "bench contact --light 0 --techniques pcf --size 32x24",
+        "sweep contact --light 0 --size 32x24 -o out",
+        "render contact --size 32x24 -o a.png",
+        "render contact --size 32x24 --adapter 0 -o a.png",
+    ] {
+        let (code, _, errors) = run(line);
+        assert_eq!((code, errors.lines().count()), (Some(2), 1), "{line}: {errors}");
+        assert!(errors.contains("no usable graphics adapter") && errors.contains("install"), "{line}: {errors}");
+        assert!(files(folder.path()).is_empty(), "{line}: something was written");
+    }
+    let (code, list, _) = run("list");
+    assert!(code == Some(0) && list.contains("none that can be used: install a Vulkan driver"), "{list}");
+    let (_, json, _) = run("list --json");
+    let list: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let all = list["adapters"].as_array().expect("a list");
+    assert!(all.iter().all(|adapter| adapter["unusable"].is_string()), "{all:?}");
+    let (code, _, errors) =
+        run("render contact --technique ray-traced --light 0 --aov visibility --size 32x24 -o a.png");
+    assert_eq!((code, errors.as_str()), (Some(0), ""));
+}
+
+/// Where there is no desktop, a layer of Mesa's has something to say about that.
+#[test]
+fn nothing_is_printed_where_there_is_no_desktop() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut command = command(folder.path(), &["list"]);
+    for variable in ["NODEVICE_SELECT", "XDG_RUNTIME_DIR", "WAYLAND_DISPLAY", "DISPLAY"] {
+        command.env_remove(variable);
+    }
+    let output = command.output().expect("the command starts");
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    assert!(output.status.success() && output.stdout.starts_with(b"Techniques"));
+}

@@ -1,11 +1,11 @@
 //! How many triangles lie between the eye and the light: where a count that starts at the eye has
 //! to begin.
 
+use crate::bvh;
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::{Bvh2, builder::build_bvh2};
+use obvhs::bvh2::Bvh2;
 use obvhs::ray::Ray;
 use obvhs::{Boundable, BvhBuildParams};
-use std::time::Duration;
 use umbrage_core::adjacency::Adjacency;
 use umbrage_core::glam::{DMat3, DVec2, DVec3, DVec4, Vec3A};
 use umbrage_core::silhouette::facing;
@@ -44,8 +44,7 @@ impl EyeTree {
         if boxes.is_empty() {
             return Self { tree: Bvh2::default(), margin };
         }
-        // The builder insists on a clock's reading, which nobody needs.
-        Self { tree: build_bvh2(&boxes, BvhBuildParams::fastest_build(), &mut Duration::default()), margin }
+        Self { tree: bvh::build(&boxes, BvhBuildParams::fastest_build()), margin }
     }
 
     /// False where surely no triangle touches the box, which is in mesh space.

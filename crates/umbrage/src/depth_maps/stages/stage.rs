@@ -5,7 +5,7 @@ use crate::depth_maps::frame::MapFrame;
 use crate::{error::Error, gpu::Gpu, passes::Passes, technique::DebugView, view::View};
 
 /// Passes over a light's maps or over its casters, and what the look-up binds besides the maps.
-pub trait Stage: Send {
+pub trait Stage: wgpu::WasmNotSend {
     /// The layout of [`Stage::bind_group`], the shader's group 2.
     fn layout(&self) -> &wgpu::BindGroupLayout;
 

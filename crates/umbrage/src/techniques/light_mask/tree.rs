@@ -1,10 +1,9 @@
 //! Hierarchies of boxes in the order in which a shader walks them without a stack.
 
-use crate::shader::shader_struct;
+use crate::{bvh, shader::shader_struct};
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::{Bvh2, builder::build_bvh2};
+use obvhs::bvh2::Bvh2;
 use obvhs::{Boundable, BvhBuildParams};
-use std::time::Duration;
 use umbrage_core::glam::{Vec3, Vec3A};
 
 shader_struct! {
@@ -35,8 +34,7 @@ pub(super) fn append(boxes: &[Boxed], nodes: &mut Vec<TreeNode>, order: &mut Vec
     if boxes.is_empty() {
         return;
     }
-    // The builder insists on a clock's reading, which nobody needs.
-    let tree = build_bvh2(boxes, BvhBuildParams::medium_build(), &mut Duration::default());
+    let tree = bvh::build(boxes, BvhBuildParams::medium_build());
     let first = order.len() as u32;
     order.extend(&tree.primitive_indices);
     lay_out(&tree, first, nodes);

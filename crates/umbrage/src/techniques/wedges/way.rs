@@ -9,7 +9,7 @@ use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
 
 /// A way of drawing. Pieces are known by their number, which is that of their layer in the target,
 /// too.
-pub(super) trait Way: Send {
+pub(super) trait Way: wgpu::WasmNotSend {
     /// Where silhouettes are found.
     fn extrude(&self) -> Extrude {
         Extrude::Compute
