@@ -32,7 +32,7 @@ pub fn run() -> Result<()> {
 }
 
 fn with_packages(mut command: Command) -> Command {
-    FOR_BROWSERS.iter().for_each(|package| drop(command.args(["--package", package])));
+    command.args(FOR_BROWSERS.iter().flat_map(|package| ["--package", package]));
     command
 }
 

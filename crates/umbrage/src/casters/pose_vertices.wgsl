@@ -7,28 +7,26 @@ struct JointRows {
     row2: vec4f,
 }
 
-struct HeldBy {
-    joint: u32,
-    weight: f32,
-}
-
-@group(0) @binding(1) var<storage, read> joints: array<JointRows>;
-@group(0) @binding(2) var<storage, read> starts: array<u32>;
-@group(0) @binding(3) var<storage, read> held: array<HeldBy>;
-// Normal, texture coordinate, opacity.
-@group(0) @binding(5) var<storage, read_write> attributes: array<f32>;
+// Normal, texture coordinate, opacity. Normals have a pass of their own, so that neither pass has more
+// than the four storage buffers that the smallest devices allow.
+@group(0) @binding(2) var<storage, read_write> attributes: array<f32>;
+@group(1) @binding(0) var<storage, read> joints: array<JointRows>;
+// Where the joints of each vertex start in here; then pairs of a joint and the bits of its weight.
+@group(1) @binding(1) var<storage, read> weights: array<u32>;
 
 const ATTRIBUTES: u32 = 6u;
 
 // What a vertex's joints do together; nothing where none holds it.
-fn blend(first_joint: u32, start: u32, end: u32) -> JointRows {
+fn bend_of(mesh: PosedMesh, vertex: u32) -> JointRows {
+    let start = weights[mesh.first_start + vertex];
+    let end = weights[mesh.first_start + vertex + 1u];
     if start == end {
         return JointRows(vec4f(1.0, 0.0, 0.0, 0.0), vec4f(0.0, 1.0, 0.0, 0.0), vec4f(0.0, 0.0, 1.0, 0.0));
     }
     var sum = JointRows(vec4f(0.0), vec4f(0.0), vec4f(0.0));
-    for (var i = start; i < end; i++) {
-        let joint = joints[first_joint + held[i].joint];
-        let weight = held[i].weight;
+    for (var i = start; i < end; i += 2u) {
+        let joint = joints[mesh.first_joint + weights[i]];
+        let weight = bitcast<f32>(weights[i + 1u]);
         sum.row0 += weight * joint.row0;
         sum.row1 += weight * joint.row1;
         sum.row2 += weight * joint.row2;
@@ -53,16 +51,24 @@ fn pose_vertices(@builtin(global_invocation_id) id: vec3u) {
     if id.x >= mesh.vertex_count {
         return;
     }
-    let start = mesh.first_start + id.x;
-    let bend = blend(mesh.first_joint, starts[start], starts[start + 1u]);
-    let bound = mesh.bound_vertex + id.x;
+    let bend = bend_of(mesh, id.x);
     let vertex = mesh.vertex + id.x;
-    let p = vec4f(position_at(bound), 1.0);
+    let p = vec4f(position_at(mesh.bound_vertex + id.x), 1.0);
     positions[3u * vertex] = dot(bend.row0, p);
     positions[3u * vertex + 1u] = dot(bend.row1, p);
     positions[3u * vertex + 2u] = dot(bend.row2, p);
-    let from_at = ATTRIBUTES * bound;
-    let n = bent_normal(bend, vec3f(attributes[from_at], attributes[from_at + 1u], attributes[from_at + 2u]));
+}
+
+@compute @workgroup_size(64)
+fn pose_normals(@builtin(global_invocation_id) id: vec3u) {
+    let mesh = meshes[id.y];
+    if id.x >= mesh.vertex_count {
+        return;
+    }
+    let from_at = ATTRIBUTES * (mesh.bound_vertex + id.x);
+    let normal = vec3f(attributes[from_at], attributes[from_at + 1u], attributes[from_at + 2u]);
+    let n = bent_normal(bend_of(mesh, id.x), normal);
+    let vertex = mesh.vertex + id.x;
     attributes[ATTRIBUTES * vertex] = n.x;
     attributes[ATTRIBUTES * vertex + 1u] = n.y;
     attributes[ATTRIBUTES * vertex + 2u] = n.z;

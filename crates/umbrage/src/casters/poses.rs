@@ -2,9 +2,12 @@
 //! buffers, which a compute pass fills when the pose changes. All techniques, and hosts, draw them
 //! like any others.
 
+mod device;
+
 use super::vertices::MeshPart;
-use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{error::Error, gpu::Gpu, passes::Passes, shader::Shader, shader::Shared, shader::shader_struct};
+use device::Device;
+pub(super) use device::planes_group;
 use std::sync::{Arc, OnceLock};
 use umbrage_core::adjacency::Adjacency;
 use umbrage_core::glam::{DAffine3, DVec3, Vec4};
@@ -13,7 +16,7 @@ use umbrage_core::{Bounds, Mesh, Scene};
 
 /// Bends vertices; then makes planes of the triangles between them.
 pub(crate) const SHADERS: &[Shader] = &[
-    Shader::new("poses", include_str!("pose_vertices.wgsl")).with_layouts(&[JointRows::LAYOUT, HeldBy::LAYOUT]),
+    Shader::new("poses", include_str!("pose_vertices.wgsl")).with_layouts(&[JointRows::LAYOUT]),
     Shader::new("planes of poses", include_str!("pose_planes.wgsl")),
 ];
 
@@ -45,14 +48,6 @@ shader_struct! {
     }
 }
 
-shader_struct! {
-    /// A joint that holds a vertex.
-    pub(crate) struct HeldBy {
-        joint: u32,
-        weight: f32,
-    }
-}
-
 /// The instances that have a pose.
 pub(super) struct Poses {
     /// Number of meshes of the scene; those of posed instances follow, one each.
@@ -78,16 +73,6 @@ struct Posed {
     work: PosedMesh,
     /// Made when the CPU asks for them.
     planes: OnceLock<Vec<Vec4>>,
-}
-
-/// What is on the GPU.
-struct Device {
-    vertices: wgpu::ComputePipeline,
-    planes: wgpu::ComputePipeline,
-    work: wgpu::Buffer,
-    joints: wgpu::Buffer,
-    bind_group: wgpu::BindGroup,
-    bytes: u64,
 }
 
 /// Threads of a workgroup.
@@ -183,18 +168,7 @@ impl Poses {
         if self.posed.is_empty() {
             return Ok(());
         }
-        let (mut starts, mut held): (Vec<u32>, Vec<HeldBy>) = (vec![0], Vec::new());
-        let mut first_start = vec![0; self.scene_meshes];
-        for (mesh, first) in scene.meshes.iter().zip(&mut first_start).filter(|(m, _)| !m.weights.is_empty()) {
-            let base = held.len() as u32;
-            *first = starts.len() as u32 - 1;
-            held.extend(mesh.weights.influences().iter().map(|i| HeldBy { joint: i.joint, weight: i.weight }));
-            let ends = (0..mesh.positions.len()).scan(0, |end, vertex| {
-                *end = mesh.weights.ends().get(vertex).copied().unwrap_or(*end);
-                Some(base + *end)
-            });
-            starts.extend(ends);
-        }
+        let (weights, first_start) = weights(scene);
         for (posed, part) in self.posed.iter_mut().zip(&meshes[self.scene_meshes..]) {
             let source = &meshes[posed.source];
             posed.work = PosedMesh {
@@ -208,13 +182,13 @@ impl Poses {
             posed.bound = Some(source.mesh.clone());
         }
         let joints: usize = self.posed.iter().map(|p| p.joints.len()).sum();
-        self.check(gpu, vertices, joints)?;
-        self.device = Some(Device::new(gpu, self.posed.len(), joints, &starts, &held, vertices));
+        self.check(gpu, vertices, joints, weights.len())?;
+        self.device = Some(Device::new(gpu, self.posed.len(), joints, &weights, vertices));
         Ok(())
     }
 
     /// Whether all fits the adapter, and what a dispatch can do.
-    fn check(&self, gpu: &Gpu, vertices: [&wgpu::Buffer; 2], joints: usize) -> Result<(), Error> {
+    fn check(&self, gpu: &Gpu, vertices: [&wgpu::Buffer; 2], joints: usize, weights: usize) -> Result<(), Error> {
         let limits = gpu.device.limits();
         let groups = u64::from(limits.max_compute_workgroups_per_dimension);
         let largest = self.posed.iter().map(|p| p.work.vertex_count).max().unwrap_or(0);
@@ -225,6 +199,7 @@ impl Poses {
             ("the vertices of a mesh with joints", u64::from(largest), groups * u64::from(GROUP)),
             ("the triangles of a mesh with joints", triangles.unwrap_or(0), groups * u64::from(GROUP)),
             ("the joints of all poses", joints as u64 * size_of::<JointRows>() as u64, binding),
+            ("the weights of all meshes with joints", weights as u64 * 4, binding),
             ("the vertices of a scene with poses", vertices[0].size().max(vertices[1].size()), binding),
         ] {
             if size > limit {
@@ -260,13 +235,17 @@ impl Poses {
         passes.upload(&device.work, bytemuck::cast_slice(&self.work));
         passes.upload(&device.joints, bytemuck::cast_slice(&self.joints));
         let mut pass = passes.compute("poses");
-        pass.set_bind_group(0, &device.bind_group, &[]);
         let meshes = self.work.len() as u32;
         if most_vertices > 0 {
-            pass.set_pipeline(&device.vertices);
-            pass.dispatch_workgroups(most_vertices.div_ceil(GROUP), meshes, 1);
+            pass.set_bind_group(1, &device.of_joints, &[]);
+            for (group, pipeline) in [(&device.of_normals, &device.normals), (&device.of_positions, &device.vertices)] {
+                pass.set_bind_group(0, group, &[]);
+                pass.set_pipeline(pipeline);
+                pass.dispatch_workgroups(most_vertices.div_ceil(GROUP), meshes, 1);
+            }
         }
         if let Some(planes) = group.filter(|_| most_triangles > 0) {
+            pass.set_bind_group(0, &device.of_positions, &[]);
             pass.set_bind_group(1, planes, &[]);
             pass.set_pipeline(&device.planes);
             pass.dispatch_workgroups(most_triangles.div_ceil(GROUP), meshes, 1);
@@ -277,6 +256,25 @@ impl Poses {
     pub fn bytes(&self) -> u64 {
         self.device.as_ref().map_or(0, |d| d.bytes)
     }
+}
+
+/// Who holds the vertices of all meshes with joints, as `pose_vertices.wgsl` has it: where the
+/// joints of each vertex start in the list itself, then pairs of a joint and its weight. And of each
+/// mesh the place of its first start.
+fn weights(scene: &Scene) -> (Vec<u32>, Vec<u32>) {
+    let (mut ends, mut pairs) = (vec![0], Vec::new());
+    let mut first_start = vec![0; scene.meshes.len()];
+    for (mesh, first) in scene.meshes.iter().zip(&mut first_start).filter(|(m, _)| !m.weights.is_empty()) {
+        let base = pairs.len() as u32 / 2;
+        *first = ends.len() as u32 - 1;
+        pairs.extend(mesh.weights.influences().iter().flat_map(|i| [i.joint, i.weight.to_bits()]));
+        ends.extend((0..mesh.positions.len()).scan(0, |end, vertex| {
+            *end = mesh.weights.ends().get(vertex).copied().unwrap_or(*end);
+            Some(base + *end)
+        }));
+    }
+    let of_starts = ends.len() as u32;
+    (ends.into_iter().map(|end| of_starts + 2 * end).chain(pairs).collect(), first_start)
 }
 
 /// The planes of a mesh among those of all.
@@ -292,65 +290,6 @@ fn rows(joint: &DAffine3) -> JointRows {
     let t = joint.translation;
     let row = |axis: DVec3, t: f64| axis.extend(t).as_vec4().to_array();
     JointRows { row0: row(m.x_axis, t.x), row1: row(m.y_axis, t.y), row2: row(m.z_axis, t.z) }
-}
-
-/// A storage buffer that is written.
-const WRITTEN: wgpu::BindingType = wgpu::BindingType::Buffer {
-    ty: wgpu::BufferBindingType::Storage { read_only: false },
-    has_dynamic_offset: false,
-    min_binding_size: None,
-};
-
-/// The bind group that planes are remade through: indices and planes.
-pub(super) fn planes_group(gpu: &Gpu, indices: &wgpu::Buffer, planes: &wgpu::Buffer) -> wgpu::BindGroup {
-    bind(gpu, "planes of poses", &planes_layout(gpu), &[indices.as_entire_binding(), planes.as_entire_binding()])
-}
-
-fn planes_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    layout(gpu, "planes of poses", wgpu::ShaderStages::COMPUTE, &[STORAGE, WRITTEN])
-}
-
-impl Device {
-    fn new(
-        gpu: &Gpu,
-        posed: usize,
-        joints: usize,
-        starts: &[u32],
-        held: &[HeldBy],
-        vertices: [&wgpu::Buffer; 2],
-    ) -> Self {
-        let own = [STORAGE, STORAGE, STORAGE, STORAGE, WRITTEN, WRITTEN];
-        let own = layout(gpu, "poses", wgpu::ShaderStages::COMPUTE, &own);
-        let planes = planes_layout(gpu);
-        let pipeline = |shader: &Shader, entry, groups: &[Option<&wgpu::BindGroupLayout>]| {
-            let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                bind_group_layouts: groups,
-                ..Default::default()
-            });
-            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry),
-                layout: Some(&pipeline_layout),
-                module: &shader.module(gpu),
-                entry_point: Some(entry),
-                compilation_options: Default::default(),
-                cache: None,
-            })
-        };
-        use wgpu::BufferUsages as Usage;
-        let work = gpu.buffer("poses", &vec![PosedMesh::default(); posed], Usage::STORAGE | Usage::COPY_DST);
-        let rows = gpu.buffer("joints", &vec![JointRows::default(); joints], Usage::STORAGE | Usage::COPY_DST);
-        let starts = gpu.buffer("where weights start", starts, Usage::STORAGE);
-        let held = gpu.buffer("weights", held, Usage::STORAGE);
-        let buffers = [&work, &rows, &starts, &held, vertices[0], vertices[1]].map(|b| b.as_entire_binding());
-        Self {
-            vertices: pipeline(&SHADERS[0], "pose_vertices", &[Some(&own)]),
-            planes: pipeline(&SHADERS[1], "pose_planes", &[Some(&own), Some(&planes)]),
-            bind_group: bind(gpu, "poses", &own, &buffers),
-            bytes: [&work, &rows, &starts, &held].iter().map(|b| b.size()).sum(),
-            work,
-            joints: rows,
-        }
-    }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ struct PosedMesh {
     bound_vertex: u32,
     vertex: u32,
     vertex_count: u32,
-    // In `starts`, one a vertex and one more.
+    // In `weights`, one a vertex and one more.
     first_start: u32,
     first_joint: u32,
     // Of its triangles in the index buffer, and of their planes.
@@ -18,7 +18,7 @@ struct PosedMesh {
 }
 
 @group(0) @binding(0) var<storage, read> meshes: array<PosedMesh>;
-@group(0) @binding(4) var<storage, read_write> positions: array<f32>;
+@group(0) @binding(1) var<storage, read_write> positions: array<f32>;
 
 fn position_at(vertex: u32) -> vec3f {
     let at = 3u * vertex;
