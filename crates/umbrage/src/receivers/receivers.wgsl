@@ -55,6 +55,12 @@ fn off_surface(eye: Eye, normal: vec3f, inverse_w: f32) -> f32 {
     return dot(eye.snapped, abs(vec2f(dot(normal, m[0].xyz), dot(normal, m[1].xyz)) * inverse_w));
 }
 
+// The same in metres for a surface that lies in any way.
+fn off_any_surface(eye: Eye, inverse_w: f32) -> f32 {
+    let m = eye.eye_from_ndc;
+    return dot(eye.snapped, vec2f(length(m[0].xyz), length(m[1].xyz)) * abs(inverse_w));
+}
+
 // From `here` to the neighbour along `step`, nothing where that is off the picture or shows no
 // surface.
 fn toward(eye: Eye, pixel: vec2f, here: vec3f, step: vec2i) -> vec3f {

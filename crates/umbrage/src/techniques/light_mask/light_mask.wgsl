@@ -188,7 +188,7 @@ fn samples_in(half: Half, four: u32) -> vec4u {
     return half_planes[half.at + four] ^ vec4u(half.other);
 }
 
-fn walk_mesh(rows: Rows, p: vec3f, place: Placed) {
+fn walk_mesh(rows: Rows, p: vec3f, place: Placed, off: f32) {
     var at = place.first_node;
     while at < place.end_node {
         let node = nodes[at];
@@ -196,7 +196,7 @@ fn walk_mesh(rows: Rows, p: vec3f, place: Placed) {
         let count = node.leaf & ((1u << LEAF_BITS) - 1u);
         if is_met {
             for (var i = 0u; i < count; i++) {
-                strike(rows, p, (node.leaf >> LEAF_BITS) + i, place.tolerance);
+                strike(rows, p, (node.leaf >> LEAF_BITS) + i, place.tolerance + off);
             }
         }
         at = select(node.next, at + 1u, is_met && count == 0u);
@@ -206,7 +206,8 @@ fn walk_mesh(rows: Rows, p: vec3f, place: Placed) {
     }
 }
 
-fn walk(rows: Rows, p: vec3f) {
+// `off` is how far, in metres, the point may be off its own surface.
+fn walk(rows: Rows, p: vec3f, off: f32) {
     var at = 0u;
     while at < arrayLength(&top) && !is_dark() {
         let node = top[at];
@@ -221,7 +222,8 @@ fn walk(rows: Rows, p: vec3f) {
                 let m = place.mesh_from_eye;
                 let there = vec3f(dot(m[0].xyz, p) + m[0].w, dot(m[1].xyz, p) + m[1].w, dot(m[2].xyz, p) + m[2].w);
                 let back = place.eye_from_mesh;
-                walk_mesh(through(rows, back[0].xyz, back[1].xyz, back[2].xyz), there, place);
+                let metre = max(length(m[0].xyz), max(length(m[1].xyz), length(m[2].xyz)));
+                walk_mesh(through(rows, back[0].xyz, back[1].xyz, back[2].xyz), there, place, off * metre);
             }
         }
         at = select(node.next, at + 1u, is_met && count == 0u);
@@ -273,7 +275,8 @@ fn mask(@builtin(position) at: vec4f) -> @location(0) f32 {
     let x = vec3f(l[0].x, l[1].x, l[2].x);
     let y = vec3f(l[0].y, l[1].y, l[2].y);
     let z = vec3f(l[0].z, l[1].z, l[2].z);
-    walk(through(rows, x, y, z), here);
+    let off = off_any_surface(eye, 1.0 / eye_w(eye, ndc_of(eye, at.xy, depth)));
+    walk(through(rows, x, y, z), here, off);
     let seen = countOneBits(~first) + countOneBits(~second);
     return f32(seen.x + seen.y + seen.z + seen.w) / f32(32u * WORDS);
 }

@@ -130,7 +130,8 @@ fn add_cap(in: CapCorner, @builtin(front_facing) from_outside: bool) -> @locatio
     }
     let eye_inside = f32(!from_outside);
     let p = position_eye(eye, pixel, depth);
-    let off = in.off + position_rounding(eye, depth, 1.0 / eye_w(eye, ndc_of(eye, pixel, depth)));
+    let inverse_w = 1.0 / eye_w(eye, ndc_of(eye, pixel, depth));
+    let off = in.off + position_rounding(eye, depth, inverse_w) + off_any_surface(eye, inverse_w);
     let inside = is_inside_within(p, in.plane, eye_inside, off);
     return in.weights * (f32(inside) - (1.0 - eye_inside));
 }
