@@ -51,8 +51,9 @@ const NEAREST: f64 = 1e-3;
 /// parts, metres along the view. Parts that hold no receiver have no view.
 ///
 /// Lights that shine to all sides, or to more than one view can hold, have no parts: they get what
-/// [`fit`](super::fit) gives them, and what that returns; `borders` is empty then. What is seen
-/// more than 60 degrees off a spot's axis is not covered.
+/// [`fit`](super::fit) gives them, and what that returns; `borders` is empty then. So does a spot
+/// while the camera sees receivers more than 60 degrees off its axis. Steady views must not change
+/// with where the camera looks, and do not cover those.
 pub fn fit_cascades(
     light: &LightShape,
     camera: &CameraView,
@@ -66,7 +67,11 @@ pub fn fit_cascades(
     borders.clear();
     let seen = camera.frustum();
     let is_split = match *light {
-        LightShape::Spot { outer_angle_deg, .. } => perspective::is_narrow(outer_angle_deg),
+        LightShape::Spot { position, direction, outer_angle_deg, .. } => {
+            let is_steady = matches!(cascades.cover, Cover::Steady { .. });
+            perspective::is_narrow(outer_angle_deg)
+                && (is_steady || perspective::is_within_widest(position, direction, &seen, scene))
+        }
         _ => light.center().w == 0.0,
     };
     if !is_split {

@@ -115,6 +115,17 @@ impl Perspective {
         Some(LightView::of(Crop::to(rect, fit).matrix() * self.clip_from_world(), fit.size, 0))
     }
 
+    /// Whether the widest view holds all that the camera sees of the receivers.
+    fn may_hold(&self, seen: &Frustum, receivers: &[Bounds]) -> bool {
+        let clip_from_world = self.clip_from_world();
+        let mut points = Vec::new();
+        receivers.iter().for_each(|b| seen.clip_box(b, &mut points));
+        points.iter().all(|p| {
+            let clip = clip_from_world * p.extend(1.0);
+            clip.truncate().truncate().abs().max_element() <= WIDEST * clip.w
+        })
+    }
+
     /// What the camera sees of the receivers within `opening`, as far as that is in `whole`.
     fn visible(&self, seen: &Frustum, receivers: &[Bounds], opening: &Frustum, whole: Rect) -> Option<Rect> {
         let clip_from_world = self.clip_from_world();
@@ -128,6 +139,13 @@ impl Perspective {
             divided(DVec4 { w: clip.w.max(self.near), ..clip }).clamp(whole.min, whole.max)
         }))
     }
+}
+
+/// Whether all that the camera sees of the receivers is within the widest view along `direction`.
+pub(super) fn is_within_widest(position: DVec3, direction: DVec3, seen: &Frustum, scene: &FitScene) -> bool {
+    let near = super::near(position, scene);
+    let view = Perspective { position, forward: direction, up: direction.any_orthonormal_vector(), near };
+    view.may_hold(seen, &scene.receivers)
 }
 
 /// The view of a spot that no cone wider than a single view asks for: what is seen outside of that
@@ -167,16 +185,7 @@ pub(super) fn spot(
             Rect::around(outer_angle_deg.to_radians().tan())
         }
         Focus::Visible => {
-            let mut points = Vec::new();
-            scene.receivers.iter().for_each(|b| seen.clip_box(b, &mut points));
-            let inside = |p: &DVec3| {
-                let clip = view.clip_from_world() * p.extend(1.0);
-                clip.truncate().truncate().abs().max_element() <= WIDEST * clip.w
-            };
-            if !points.iter().all(inside) {
-                return None;
-            }
-            return view.cropped(seen, scene, fit);
+            return if view.may_hold(seen, &scene.receivers) { view.cropped(seen, scene, fit) } else { None };
         }
     };
     Some(LightView::of(Crop::to(rect, fit).matrix() * view.clip_from_world(), fit.size, 0))

@@ -67,6 +67,15 @@ const WHOLE: Form = Form {
 impl Form {
     /// `point_radius`: what points and spots have.
     pub fn of(shape: &LightShape, has_picture: bool, point_radius: f64) -> Self {
+        let form = Self::with_extent(shape, has_picture, point_radius);
+        // A light that has shrunk to a point has no space of its own.
+        if form.is_point() && form.center.w != 0.0 {
+            return Self::sphere(form.center.truncate(), DMat3::IDENTITY, DVec3::ZERO);
+        }
+        form
+    }
+
+    fn with_extent(shape: &LightShape, has_picture: bool, point_radius: f64) -> Self {
         match *shape {
             LightShape::Point { position } | LightShape::Spot { position, .. } => {
                 Self::sphere(position, DMat3::IDENTITY, DVec3::splat(point_radius))

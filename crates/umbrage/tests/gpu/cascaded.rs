@@ -3,7 +3,8 @@
 
 use crate::common::{against_truth, gpu, renderer, scene, visibility};
 use umbrage::Registry;
-use umbrage::core::{Camera, Image, Light, LightShape, Scene, glam::DVec3};
+use umbrage::core::glam::{DAffine3, DVec3};
+use umbrage::core::{Camera, Image, Instance, Light, LightShape, Scene};
 
 const SIZE: (u32, u32) = (320, 240);
 
@@ -152,4 +153,30 @@ fn odd_views_are_no_trouble() {
             }
         }
     }
+}
+
+#[test]
+fn outside_of_a_narrow_cone_shadows_are_those_of_other_maps() {
+    // Receivers all around the axis, most of them farther than 60 degrees from it.
+    let mut scene = crate::robust::box_scene(LightShape::Spot {
+        position: DVec3::new(1.5, 3.0, 1.0),
+        direction: DVec3::new(0.0, -1.0, 1e-4).normalize(),
+        inner_angle_deg: 0.045,
+        outer_angle_deg: 0.05,
+    });
+    scene.camera.fov_y_deg = 70.0;
+    let cube = scene.instances[1].clone();
+    for x in [-4.0, 4.0] {
+        let at = DVec3::new(x, 1.0, -3.0);
+        scene.instances.push(Instance { world_from_mesh: DAffine3::from_translation(at), ..cube.clone() });
+    }
+    let score = |id, set| against_truth(&gpu(), &scene, 0, id, set, (96, 72), 1).mae;
+    let expected = score("shadow-map", "size=512");
+    // A point light has no splits either.
+    for set in ["size=512", "size=512,fit=frustum", "size=512,depth-fit=on", "size=512,filter=pcss"] {
+        let got = score("cascaded", set);
+        assert!(got < expected + 0.002, "cascaded:{set}: {got}, shadow-map {expected}");
+    }
+    let none = score("none", "");
+    assert!(none > 0.01, "hardly any shadow: {none}");
 }

@@ -3,6 +3,7 @@
 mod cache;
 mod cascaded;
 mod common;
+mod dark;
 mod filters;
 mod golden;
 mod host;

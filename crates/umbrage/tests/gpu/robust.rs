@@ -1,13 +1,13 @@
 //! Strange input gives a right picture or a clear error, never a panic.
 
-use crate::common::{gpu, pairs, renderer, scene, visibility};
+use crate::common::{against_truth, gpu, pairs, renderer, scene, visibility};
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Camera, Light, LightKind, LightShape, Material, Mesh, Scene, primitive};
 use umbrage::{Error, find, light_samples, techniques};
 use umbrage_renderer::{LightPass, Renderer};
 
 /// A box over a floor under one light.
-fn box_scene(shape: LightShape) -> Scene {
+pub fn box_scene(shape: LightShape) -> Scene {
     let mut scene = Scene { lights: vec![Light::new(shape)], ..Scene::default() };
     let (floor, cube) = (scene.add_mesh(primitive::plane()), scene.add_mesh(primitive::cube()));
     let material = scene.add_material(Material::default());
@@ -238,4 +238,27 @@ fn soft_lights_are_refused_where_a_technique_is_not_hard() {
     assert!(error.to_string().contains("not a hard technique"), "{error}");
     assert!(find("none").unwrap().supports(LightKind::Rect).is_ok());
     assert!(find("shadowmap").unwrap_err().to_string().contains("did you mean `shadow-map`"));
+}
+
+#[test]
+fn filters_beside_an_area_light_are_like_a_single_compare() {
+    // 1 mm above the floor, which filters continue to beyond its horizon there.
+    let gpu = gpu();
+    let up = DVec3::Y;
+    let position = DVec3::new(0.0, 0.001, 2.0);
+    let shapes = [
+        LightShape::Line { from: position - DVec3::X * 2.0, to: position + DVec3::X * 2.0 },
+        LightShape::Rect { position, direction: up, up: DVec3::Z, size: [1.2, 0.8].into(), texture: None },
+    ];
+    for shape in shapes {
+        let scene = box_scene(shape);
+        let error = |id, set| against_truth(&gpu, &scene, 0, id, set, (80, 60), 16).false_shadow;
+        let one = error("shadow-map", "");
+        for (id, set) in
+            [("pcf", ""), ("pcf", "kernel=7"), ("pcf", "kernel=disc"), ("pcf-jitter", ""), ("pcf-blur", "")]
+        {
+            let wide = error(id, set);
+            assert!(wide < one + 0.01, "{id} {set}: false shadow {wide}, of one compare {one}");
+        }
+    }
 }

@@ -104,7 +104,10 @@ impl Views {
             let whole = Cascades { count: 1, overlap: 0.0, ..*cascades };
             let omni = fit_cascades(light, camera, &frame.scene, &whole, &to_fit, views, &mut frame.borders);
             frame.layers = omni.into();
-            if let (false, Some(whole)) = (frame.borders.is_empty(), views.pop()) {
+            // Without borders these are the faces of a light to all sides.
+            if !frame.borders.is_empty()
+                && let Some(whole) = views.pop()
+            {
                 let count = cascades.count as u32;
                 views.extend((0..count).map(|layer| LightView { layer, ..whole.clone() }));
                 frame.layers = Layers::Splits(count);

@@ -26,9 +26,20 @@ shader_struct! {
 /// of its own.
 const FLATTEST: f64 = 1e-4;
 
+/// True for lights that turn the same side to all receivers: spheres, and points, whatever kind of
+/// light has shrunk to one.
+pub(super) fn is_round(shape: &LightShape) -> bool {
+    match *shape {
+        LightShape::Directional { .. } => false,
+        LightShape::Sphere { .. } | LightShape::Ellipsoid { .. } => true,
+        _ => shape.radius() == 0.0,
+    }
+}
+
 impl LightExtent {
     pub(super) fn of(shape: &LightShape) -> Self {
         match *shape {
+            _ if is_round(shape) && shape.radius() == 0.0 => Self::round(DMat3::IDENTITY, DVec3::ZERO),
             LightShape::Point { .. } | LightShape::Spot { .. } => Self::round(DMat3::IDENTITY, DVec3::ZERO),
             LightShape::Directional { direction, angle_deg } => {
                 let tangent = (angle_deg * 0.5).to_radians().clamp(0.0, 1.5).tan();

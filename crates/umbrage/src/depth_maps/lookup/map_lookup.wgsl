@@ -45,6 +45,10 @@ const BEND: f32 = 0.25;
 // Share of a steady map's width over which it is blended with the next one.
 const STEADY_FADE: f32 = 0.025;
 
+// How far from the light a receiver's plane may be continued to, over its own distance: beside the
+// light a filter meets its horizon, where there is no more of it.
+const BEYOND: f32 = 2.0;
+
 // Widest filter of a radius in metres.
 const MOST_TEXELS: f32 = 64.0;
 
@@ -292,13 +296,18 @@ fn map_slope(point: MapPoint) -> vec2f {
     return select(slope, vec2f(0.0), point.across == 0.0);
 }
 
+// A change of depth, no lower than where the plane is not to be continued.
+fn before_horizon(change: f32, depth: f32) -> f32 {
+    return select(change, max(change, (1.0 / BEYOND - 1.0) * depth), PERSPECTIVE);
+}
+
 // Depth of the receiver's plane `offset` texels away, by its slope.
 fn depth_along(point: MapPoint, slope: vec2f, offset: vec2f) -> f32 {
     if LAYOUT == PARABOLOIDS {
         let bend = select(point.bend / point.across, 0.0, point.across == 0.0);
-        return point.depth + plane_step(point, slope, bend, offset);
+        return point.depth + before_horizon(plane_step(point, slope, bend, offset), point.depth);
     }
-    return point.depth + dot(slope, offset);
+    return point.depth + before_horizon(dot(slope, offset), point.depth);
 }
 
 // What comparing has to forgive when the compared surface may be `texels` away from the receiver's
@@ -344,7 +353,8 @@ fn map_bend(point: MapPoint, texels: f32) -> f32 {
 // continued to there, is compared with forgiveness for a crease between and for `bend`. All is
 // multiplied by |across|, so that nothing is divided and a plane seen edge-on counts as lit.
 fn is_lit_beyond(point: MapPoint, offset: vec2f, stored: f32, bend: f32) -> bool {
-    let toward = plane_step(point, point.along, point.bend, offset) * sign(point.across);
+    let step = plane_step(point, point.along, point.bend, offset) * sign(point.across);
+    let toward = before_horizon(step, point.depth * abs(point.across));
     let crease = map.bias * CREASE * (abs(point.along.x) + abs(point.along.y));
     return (point.depth + map.bias * point.rounding + bend - stored) * abs(point.across) + toward + crease >= 0.0;
 }

@@ -1,5 +1,6 @@
 //! The full-screen pass that compares receivers with the maps.
 
+use super::extent::is_round;
 use super::phases::{OpenPixels, Phase};
 use super::uniforms::MapLookup;
 use crate::depth_maps::frame::MapFrame;
@@ -14,7 +15,6 @@ use crate::{
     view::View,
     visibility::VisibilityTarget,
 };
-use umbrage_core::LightShape;
 
 /// Pipelines (one for each combination that came up) and the uniforms of the pass.
 pub(in crate::depth_maps) struct Lookup {
@@ -41,7 +41,7 @@ type Draws = Vec<(Phase, wgpu::RenderPipeline)>;
 /// What pipelines are made for.
 #[derive(Clone, Copy, PartialEq)]
 struct Variant {
-    /// The light is a sphere of some kind, which turns the same side to all.
+    /// The light turns the same side to all.
     round: bool,
     perspective: bool,
     warped: bool,
@@ -104,7 +104,7 @@ impl Lookup {
         self.data = MapLookup::new(view, maps, self.bias);
         let perspective = maps.is_from_a_point();
         let linear = maps.is_linear;
-        let round = matches!(view.light.shape, LightShape::Sphere { .. } | LightShape::Ellipsoid { .. });
+        let round = is_round(&view.light.shape);
         let has_normals = view.receivers.has_normals;
         let warped = maps.is_warped;
         let steady = maps.views.iter().any(|v| v.steady_border.is_some());

@@ -28,6 +28,10 @@ struct LightKernel {
     radius: f32,
 }
 
+// Cosine between the ways to a flat light and along its plane below which the light counts as
+// tilted by this much: seen edge-on, depth has no slope along its plane.
+const EDGE_ON: f32 = 0.15;
+
 fn any_perpendicular(v: vec3f) -> vec3f {
     return normalize(select(vec3f(v.y, -v.x, 0.0), vec3f(0.0, v.z, -v.y), abs(v.x) < abs(v.z)));
 }
@@ -64,6 +68,9 @@ fn light_kernel(point: MapPoint, pixel: Pixel) -> LightKernel {
         kernel.right = kernel.right * point.inverse_w - point.texel * w.x;
         kernel.up = kernel.up * point.inverse_w - point.texel * w.y;
         kernel.nearer = w;
+        let toward = dot(normal, unit);
+        let least = select(EDGE_ON, -EDGE_ON, toward < 0.0) * length(normal);
+        normal += unit * select(0.0, least - toward, abs(toward) < abs(least));
         let plane = plane_through(point, normal);
         kernel.facing = plane.along / plane.across;
         kernel.facing_bend = plane.bend / plane.across;

@@ -19,6 +19,8 @@ const ROUNDS: i32 = 2;
 const NARROW: f32 = 0.5;
 // How much nearer than looked for a blocker may be and still hide the rim of the light.
 const SLACK: f32 = 1.6;
+// Reach of what is in the way, at least, however its depth is rounded.
+const LEAST_REACH: f32 = 1e-6;
 // Keeps a plane through few blockers from tilting by chance.
 const LEAST_SPREAD: f32 = 0.02;
 
@@ -34,7 +36,7 @@ fn blocker(point: MapPoint, kernel: LightKernel, stored: Stored) -> f32 {
     if is_lit(point, stored.offset, stored.depth) {
         return -1.0;
     }
-    return reach_of(point, kernel, stored.offset, stored.depth);
+    return max(reach_of(point, kernel, stored.offset, stored.depth), LEAST_REACH);
 }
 
 // Reach of a blocker of this depth somewhere in a cell of texels, or more. In perspective, by the

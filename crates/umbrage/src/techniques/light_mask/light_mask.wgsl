@@ -254,14 +254,31 @@ fn strike_horizon(p: vec3f, rows: Rows, normal: vec3f) {
     }
 }
 
+// Seen edge-on, from its own plane or line, a flat light has no face: what is nearer to that than
+// this, as a share of its distance, is taken to be so far from it.
+const EDGE_ON: f32 = 1e-3;
+
+fn off_plane(p: vec3f) -> vec3f {
+    let least = EDGE_ON * length(p);
+    if FACE == LINE && dot(p.yz, p.yz) < least * least {
+        return vec3f(p.x, least, 0.0);
+    }
+    if FACE != LINE && FACE != SPHERE && light.parallel == 0u && abs(p.z) < least {
+        return vec3f(p.xy, select(least, -least, p.z < 0.0));
+    }
+    return p;
+}
+
 @fragment
 fn mask(@builtin(position) at: vec4f) -> @location(0) f32 {
     let depth = textureLoad(receiver_depth, vec2i(at.xy), 0);
     if depth == eye.background_depth {
         return 1.0;
     }
-    let here = position_eye(eye, at.xy, depth);
-    let p = to_light(light, here);
+    let seen_at = position_eye(eye, at.xy, depth);
+    let seen_p = to_light(light, seen_at);
+    let p = off_plane(seen_p);
+    let here = seen_at + from_light(light, p - seen_p);
     let rows = rows_at(p);
     let surface = surface(eye, at.xy, depth);
     let full = 0xffffffffu;

@@ -1,6 +1,6 @@
 //! Layouts of maps for lights to all sides, how they store depth, and which surfaces they hold.
 
-mod rooms;
+pub mod rooms;
 
 use crate::common::{gpu, renderer, visibility};
 use rooms::{LIGHT, Traced, empty_room, longest_edge, room, slab};
