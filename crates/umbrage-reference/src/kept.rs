@@ -1,5 +1,6 @@
 //! Truth that is kept on disk: the same scene, light, camera, size and rays are traced once.
 
+use crate::light_view::LEAST_COSINE;
 use crate::{Options, Tracer, Truth};
 use glam::{DMat3, DVec2, DVec3};
 use std::{
@@ -120,6 +121,7 @@ fn fingerprint() -> u128 {
     static FOUND: OnceLock<u128> = OnceLock::new();
     *FOUND.get_or_init(|| {
         let mut hash = Fnv::default();
+        hash.add(&LEAST_COSINE.to_le_bytes());
         let Some(entry) = scenes::find("contact") else { return hash.0 };
         let scene = (entry.build)(0.2);
         let tracer = Tracer::new(&scene);

@@ -13,6 +13,10 @@ use umbrage_core::{Light, LightShape, Texture};
 /// Up to this many gathered triangles are tested one by one; with more, the hierarchy is faster.
 const MOST_GATHERED: usize = 48;
 
+/// Least cosine between a scored surface's normal and the way to the light's centre. The centre is in
+/// the plane of what has less, as far as rounding can tell, and no light falls on that.
+pub(crate) const LEAST_COSINE: f64 = 1e-6;
+
 /// A light, ready for any surface.
 pub(crate) struct LightView<'a> {
     light: &'a Light,
@@ -59,9 +63,10 @@ impl<'a> LightView<'a> {
         }
     }
 
-    /// True where the surface's normal faces the light's centre.
+    /// True where the surface's normal faces the light's centre, by more than [`LEAST_COSINE`].
     pub fn is_faced_by(&self, surface: &Surface) -> bool {
-        surface.normal.dot(self.light.shape.to_center(surface.position)) > 0.0
+        let way = self.light.shape.to_center(surface.position);
+        surface.normal.dot(way) > LEAST_COSINE * way.length()
     }
 
     /// The share of the light that the surface sees.

@@ -66,8 +66,8 @@ impl Choice {
         }
         let info = registry.find(id)?;
         let (brute, set): (Vec<_>, Vec<_>) = set.iter().cloned().partition(|(name, _)| name == LIGHT_SAMPLES);
-        let light_samples = brute.last().map(|(_, value)| parse_light_samples(registry, info, value)).transpose()?;
         let settings = registry.settings(id, &set)?;
+        let light_samples = brute.last().map(|(_, value)| parse_light_samples(registry, &settings, value)).transpose()?;
         let changed = settings.changed().map(|(name, value)| (name.to_string(), value.to_string())).collect();
         Ok(Self { info, settings, light_samples, note: None, registry: registry.clone(), changed })
     }
@@ -120,7 +120,7 @@ impl Choice {
     /// Averages a hard technique over `samples` points of the light, unless it says itself over how
     /// many.
     pub fn or_light_samples(mut self, samples: Option<u32>) -> Self {
-        if self.info.hard {
+        if self.settings.is_hard() {
             self.light_samples = self.light_samples.or(samples);
         }
         self
@@ -208,10 +208,15 @@ impl Renamed {
     }
 }
 
-fn parse_light_samples(registry: &Registry, info: &TechniqueInfo, value: &str) -> Result<u32, Error> {
-    if !info.hard {
+fn parse_light_samples(registry: &Registry, settings: &Settings, value: &str) -> Result<u32, Error> {
+    if !settings.is_hard() {
         let hard: Vec<&str> = registry.techniques().iter().filter(|t| t.hard).map(|t| t.id).collect();
-        let text = format!("`{}` is not a hard technique; {LIGHT_SAMPLES} is for {}", info.id, hard.join(", "));
+        let filter = settings.iter().find_map(|(name, value)| match value {
+            Value::Filter(_) => Some(format!(" with another {name} than these")),
+            _ => None,
+        });
+        let (id, filter) = (settings.info().id, filter.unwrap_or_default());
+        let text = format!("`{id}`{filter} is not a hard technique; {LIGHT_SAMPLES} is for {}", hard.join(", "));
         return Err(Error::Name(text));
     }
     let number = value.parse().ok().filter(|n| *n > 0);
@@ -248,6 +253,12 @@ mod tests {
         assert!(text(parse("shadow-map:size", &[])).contains("name=value"));
         assert!(text(parse("shadow-map:light-samples=0", &[])).contains("over 0"));
         assert!(text(parse("none:light-samples=4", &[])).contains("not a hard technique"));
+        for id in ["psm", "lispsm", "plane-optimal", "cascaded"] {
+            let hard = format!("{id}:filter=shadow-map:light-samples=4");
+            assert_eq!(text(parse(&hard, &[])), hard);
+            let filtered = text(parse(&format!("{id}:light-samples=4"), &[]));
+            assert!(filtered.contains("with another filter than these is not a hard technique"), "{filtered}");
+        }
         assert!(text(parse(RAY_TRACED, &[])).contains("already"));
         let unused = [("pcf".into(), "size".into(), "512".into())];
         let list = list(&["none".into()], &unused).map(|l| l.len()).unwrap_err().to_string();

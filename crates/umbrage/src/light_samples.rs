@@ -25,7 +25,7 @@ pub const SHADER: Shader = Shader::new("light samples", include_str!("wgsl/light
 /// than 2048; what making the technique itself gives.
 pub fn light_samples(gpu: &Gpu, settings: &Settings, samples: u32) -> Result<Box<dyn Technique>, Error> {
     let info = settings.info();
-    if !info.hard {
+    if !settings.is_hard() {
         let what = "brute force over light samples, since it is not a hard technique".into();
         return Err(Error::Unsupported { technique: info.id.into(), what });
     }

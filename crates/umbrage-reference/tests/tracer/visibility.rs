@@ -278,3 +278,28 @@ fn a_bright_spot_on_a_textured_light_counts_for_more() {
     };
     assert!(differ(&half) < 10 && differ(&other) > 100, "{} and {}", differ(&half), differ(&other));
 }
+
+#[test]
+fn a_surface_in_line_with_the_light_is_not_scored() {
+    // The light is in the plane of a turned wall, where rounding alone would choose pixels; the
+    // floor before it is scored.
+    let turn = DMat3::from_rotation_y(0.3);
+    let mut scene = Scene::default();
+    place(&mut scene, primitive::plane(), DVec3::splat(10.0), DMat3::IDENTITY, DVec3::ZERO);
+    let wall = DVec3::new(0.1, 1.3, -2.7);
+    let upright = turn * DMat3::from_rotation_x(std::f64::consts::FRAC_PI_2);
+    place(&mut scene, primitive::plane(), DVec3::splat(3.0), upright, wall);
+    scene.camera = Camera { eye: DVec3::new(1.0, 2.0, 5.0), target: DVec3::Y, ..Camera::default() };
+    let position = wall + turn * DVec3::new(0.7, 1.9, 0.0);
+    for shape in [LightShape::Point { position }, LightShape::Sphere { position, radius: 0.2 }] {
+        let truth = trace(&scene, &Light::new(shape), options(4));
+        let geometry = Tracer::new(&scene).geometry(&scene.camera, SIZE.0, SIZE.1);
+        let scored = |model: i32| {
+            let of_model = geometry.model.data.iter().zip(&truth.scored.data).filter(|(m, _)| **m == model);
+            (of_model.clone().filter(|(_, scored)| **scored).count(), of_model.count())
+        };
+        let ((floor, floors), (wall, walls)) = (scored(0), scored(1));
+        assert_eq!((floor, wall), (floors, 0));
+        assert!(floors > 500 && walls > 500, "{floors} {walls}");
+    }
+}

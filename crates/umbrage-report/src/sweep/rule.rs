@@ -58,7 +58,7 @@ pub(crate) fn around(base: &Choice, soft: bool) -> Result<(Vec<Choice>, Vec<Curv
 
 /// All that could be varied.
 fn lines(base: &Choice, soft: bool) -> Vec<Line> {
-    let brute = (soft && base.info.hard && base.light_samples.is_none()).then(|| Line {
+    let brute = (soft && base.settings.is_hard() && base.light_samples.is_none()).then(|| Line {
         name: LIGHT_SAMPLES,
         number: Some(1.0),
         values: POINTS.map(String::from).to_vec(),
@@ -157,7 +157,7 @@ mod tests {
                 for choice in &choices[1..] {
                     let set = choice.changed().len() + choice.light_samples.iter().count();
                     assert_eq!(set, 1, "{} differs in {set} parameters", choice.label());
-                    assert!(choice.light_samples.is_none() || soft && info.hard, "{}", choice.label());
+                    assert!(choice.light_samples.is_none() || soft && choice.settings.is_hard(), "{}", choice.label());
                 }
                 for curve in curves {
                     assert!(curve.labels.contains(&base.label()), "{curve:?} misses the base");

@@ -175,6 +175,11 @@ impl Settings {
         self.values.make(gpu)
     }
 
+    /// True where the technique, or the filter that it is set to, is [hard](TechniqueInfo::hard).
+    pub fn is_hard(&self) -> bool {
+        self.info.hard || self.iter().any(|(_, value)| matches!(value, Value::Filter(f) if f.info().hard))
+    }
+
     /// As a filter for maps that another technique fits.
     pub fn as_filter(&self) -> Option<&dyn Filter> {
         self.values.as_filter()
