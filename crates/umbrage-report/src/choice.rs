@@ -67,7 +67,8 @@ impl Choice {
         let info = registry.find(id)?;
         let (brute, set): (Vec<_>, Vec<_>) = set.iter().cloned().partition(|(name, _)| name == LIGHT_SAMPLES);
         let settings = registry.settings(id, &set)?;
-        let light_samples = brute.last().map(|(_, value)| parse_light_samples(registry, &settings, value)).transpose()?;
+        let light_samples =
+            brute.last().map(|(_, value)| parse_light_samples(registry, &settings, value)).transpose()?;
         let changed = settings.changed().map(|(name, value)| (name.to_string(), value.to_string())).collect();
         Ok(Self { info, settings, light_samples, note: None, registry: registry.clone(), changed })
     }

@@ -2,9 +2,9 @@
 
 use crate::shader::HostConstant;
 use crate::view::off_ties;
-use umbrage_core::LightShape;
 use umbrage_core::coverage::Cell;
 use umbrage_core::glam::{DMat3, DVec2, DVec3, DVec4};
+use umbrage_core::{Bounds, LightShape};
 
 /// What a light looks like, see `area_light.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +51,9 @@ const SQUARE: [DVec3; 4] =
 
 /// How wide a line is taken to be, as a share of its length.
 const LINE_WIDTH: f64 = 1e-3;
+
+/// How near to the light a triangle touches it, in light space.
+const SLACK: f64 = 1e-4;
 
 /// What all lights start with.
 const WHOLE: Form = Form {
@@ -216,6 +219,24 @@ impl Form {
     /// True where it has no extent: shadows are hard.
     pub fn is_point(&self) -> bool {
         self.half.iter().map(|h| h.length()).fold(0.0, f64::max) <= 1e-9
+    }
+
+    /// Whether a triangle may touch the light. Corners are relative to the light's centre.
+    pub fn touches(&self, corners: [DVec3; 3]) -> bool {
+        if self.center.w == 0.0 || self.is_point() {
+            return false;
+        }
+        let corners = corners.map(|p| self.to_light * p);
+        let hull = self.corners.iter().map(|c| c.abs()).fold(DVec3::ZERO, DVec3::max) + (self.radius + SLACK);
+        let box_of = corners.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(a, b), p| (a.min(*p), b.max(*p)));
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
+        let reach = self.corners.iter().map(|c| normal.dot(*c).abs()).fold(0.0, f64::max) + self.radius + SLACK;
+        box_of.0.cmple(hull).all() && box_of.1.cmpge(-hull).all() && normal.dot(corners[0]).abs() <= reach
+    }
+
+    /// A box around the light.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::of(self.hull().iter().map(|p| p.truncate()))
     }
 
     /// Points or directions whose hull holds the light.

@@ -21,6 +21,7 @@ mod settings;
 mod shared_references;
 mod solids;
 mod steady;
+mod touched;
 mod volume;
 mod warped;
 mod wedges;

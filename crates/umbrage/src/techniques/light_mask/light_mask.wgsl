@@ -255,16 +255,18 @@ fn strike_horizon(p: vec3f, rows: Rows, normal: vec3f) {
 }
 
 // Seen edge-on, from its own plane or line, a flat light has no face: what is nearer to that than
-// this, as a share of its distance, is taken to be so far from it.
+// this, as a share of its distance, is taken to be so far from it, out of its own surface.
 const EDGE_ON: f32 = 1e-3;
 
-fn off_plane(p: vec3f) -> vec3f {
+fn off_plane(p: vec3f, normal: vec3f) -> vec3f {
     let least = EDGE_ON * length(p);
+    let side = dot(normal, from_light(light, select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), FACE == LINE)));
+    let out = select(least, -least, side < 0.0);
     if FACE == LINE && dot(p.yz, p.yz) < least * least {
-        return vec3f(p.x, least, 0.0);
+        return vec3f(p.x, out, 0.0);
     }
     if FACE != LINE && FACE != SPHERE && light.parallel == 0u && abs(p.z) < least {
-        return vec3f(p.xy, select(least, -least, p.z < 0.0));
+        return vec3f(p.xy, out);
     }
     return p;
 }
@@ -277,15 +279,15 @@ fn mask(@builtin(position) at: vec4f) -> @location(0) f32 {
     }
     let seen_at = position_eye(eye, at.xy, depth);
     let seen_p = to_light(light, seen_at);
-    let p = off_plane(seen_p);
+    let surface = surface(eye, at.xy, depth);
+    let p = off_plane(seen_p, surface.normal);
     let here = seen_at + from_light(light, p - seen_p);
     let rows = rows_at(p);
-    let surface = surface(eye, at.xy, depth);
     let full = 0xffffffffu;
     first = select(vec4u(full), vec4u(0u), vec4u(0u, 1u, 2u, 3u) < vec4u(WORDS));
     second = select(vec4u(full), vec4u(0u), vec4u(4u, 5u, 6u, 7u) < vec4u(WORDS));
     if surface.casts {
-        strike_horizon(p, rows, surface.normal);
+        strike_horizon(seen_p, rows, surface.normal);
     }
     // The same of differences in eye-relative space.
     let l = light.to_light;

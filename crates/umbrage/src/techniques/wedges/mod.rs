@@ -5,6 +5,7 @@
 //! 7.2.
 
 mod budget;
+mod cuts;
 mod draws;
 mod old_ways;
 mod one_draw;
@@ -64,6 +65,9 @@ const SHADERS: &[Shader] = &[
     shaders::DRAWS[0],
     shaders::DRAWS[1],
     shaders::DRAWS[2],
+    shaders::CUTS[0],
+    shaders::CUTS[1],
+    shaders::CUTS[2],
     shaders::DEPTH,
     shaders::RESOLVE,
     shaders::RESOLVE_PICTURE,

@@ -1,5 +1,6 @@
 //! All wedges of a piece in one draw, whatever casts the shadows.
 
+use super::cuts::CUTS;
 use super::draws::{self, Draw};
 use super::piece::{Piece, Recording, prepare_draws};
 use super::pipelines::Pipelines;
@@ -38,6 +39,9 @@ impl Way for OneDraw {
         pipelines: &mut Pipelines,
     ) -> Result<(), Error> {
         let mut used = vec![&draws::SIDES, &draws::CAPS];
+        if pieces.iter().any(|piece| !piece.selection.cuts.is_empty()) {
+            used.push(&CUTS);
+        }
         used.extend(self.bodies().iter().map(|(draw, _)| *draw));
         prepare_draws(gpu, view, pieces, targets, &used, pipelines);
         Ok(())
@@ -50,6 +54,7 @@ impl Way for OneDraw {
         let mut drawn = piece.all_hard(&mut pass, view, r);
         if !piece.form.is_point() {
             drawn += piece.all_bodies(&mut pass, view, self.bodies(), r);
+            drawn += piece.cut_casters(&mut pass, view, r);
         }
         drawn
     }

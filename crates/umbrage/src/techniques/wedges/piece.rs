@@ -1,5 +1,6 @@
 //! A piece of a light, most often all of it: its casters, silhouettes and wedges.
 
+use super::cuts::{CUTS, CutBuffer};
 use super::draws::{self, Draw};
 use super::pipelines::{Key, Making, Pipelines};
 use super::records::{GROUP, WINDOW};
@@ -30,6 +31,7 @@ pub(super) struct Piece {
     pub selection: Selection,
     pub silhouettes: Silhouettes,
     pub buffers: Option<Buffers>,
+    cuts: CutBuffer,
 }
 
 /// What recording takes.
@@ -44,7 +46,7 @@ pub(super) struct Recording<'a> {
 impl Piece {
     pub fn new(gpu: &Gpu, form: Form, extrude: Extrude) -> Self {
         let silhouettes = Silhouettes::new(gpu, extrude);
-        Self { form, term: Term::Analytic, selection: Selection::default(), silhouettes, buffers: None }
+        Self { form, term: Term::Analytic, selection: Selection::default(), silhouettes, buffers: None, cuts: CutBuffer::default() }
     }
 
     /// Silhouettes of the chosen casters, and room for their wedges.
@@ -63,6 +65,7 @@ impl Piece {
         if self.buffers.as_ref().is_none_or(|b| !b.hold(&needs)) {
             self.buffers = Some(Buffers::new(gpu, pipelines, &needs)?);
         }
+        self.cuts.prepare(gpu, self.selection.cuts.len());
         pipelines.prepare_making(gpu, Making::Wedges { reversed: is_reversed(view) });
         pipelines.prepare_making(gpu, Making::Caps);
         if bundles {
@@ -125,6 +128,7 @@ impl Piece {
         let no_bodies = [GROUP * BODY_INDICES, 0, 0, 0, 0];
         passes.upload(&buffers.bodies, bytemuck::cast_slice(&[no_bodies; 3]));
         passes.upload(&buffers.singles, &[0; 8]);
+        self.cuts.upload(passes, &self.selection.cuts);
     }
 
     /// A pass of its draws.
@@ -195,8 +199,20 @@ impl Piece {
         1
     }
 
+    /// What wedges lack of casters that the light touches.
+    pub fn cut_casters(&self, pass: &mut wgpu::RenderPass<'_>, view: &View<'_>, r: &Recording<'_>) -> u32 {
+        let pipeline = r.pipelines.drawing(self.key(view, &CUTS, r.target));
+        let Some((pipeline, group)) = pipeline.zip(self.cuts.group()).filter(|_| !self.selection.cuts.is_empty()) else {
+            return 0;
+        };
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(3, group, &[]);
+        pass.draw(0..3, 0..1);
+        1
+    }
+
     pub fn bytes(&self) -> u64 {
-        self.silhouettes.bytes() + self.buffers.as_ref().map_or(0, Buffers::bytes)
+        self.cuts.bytes() + self.silhouettes.bytes() + self.buffers.as_ref().map_or(0, Buffers::bytes)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Which casters cast shadows into the view, and from where each is counted.
 
+use super::cuts::{Cut, Touched, cut};
 use crate::area_light::{Form, casters_in_view, may_touch};
 use crate::casters::{MeshEdges, Placed, before_eye};
 use crate::silhouettes::Throw;
@@ -32,6 +33,8 @@ pub(super) struct Selection {
     /// Of casters that are counted from infinity, chunks of triangles: the number of the caster and
     /// the first triangle.
     pub caps: Vec<[u32; 2]>,
+    /// What the light cuts of casters.
+    pub cuts: Vec<Cut>,
     found: Vec<u32>,
 }
 
@@ -54,6 +57,7 @@ impl Selection {
         self.throws.clear();
         self.eye_counts.clear();
         self.caps.clear();
+        self.cuts.clear();
         casters_in_view(view, form, &mut self.found);
         if self.found.is_empty() {
             return Ok(());
@@ -85,7 +89,9 @@ impl Selection {
         let holds_eye = bounds.overlaps(&scope.around_eye);
         let is_cut = || holds_eye && may_touch(view.casters, placed, mesh, &scope.around_eye);
         let is_open_to_eye = scope.unseen || placed.masked || is_cut();
-        let shows_inside = holds_eye || is_open_to_eye || (light.w != 0.0 && bounds.contains(light.truncate()));
+        let is_cut_by_light = self.is_touched(scope, placed, mesh);
+        let holds_light = light.w != 0.0 && bounds.contains(light.truncate());
+        let shows_inside = holds_eye || is_open_to_eye || holds_light || is_cut_by_light;
         let end = shadow_end(&scope.seen, &placed.bounds, light);
         let throw = Throw {
             anchor: [anchor, axis].map(|v| v.as_vec3()),
@@ -98,7 +104,23 @@ impl Selection {
         } else {
             Some([0; 2])
         };
+        if is_cut_by_light {
+            let part = &view.casters.meshes()[placed.mesh as usize].mesh;
+            let touched = Touched { placed, part, mesh: &mesh.adjacency, throw: &throw };
+            cut(view, form, &touched, &mut self.cuts);
+        }
         self.push(throw, eye_count, mesh.triangle_count);
+    }
+
+    /// Whether the light may touch a caster whose triangles are known here. Pieces of discs and
+    /// spheres are left out: their shares are found in another way.
+    fn is_touched(&self, scope: &Scope<'_>, placed: &Placed, mesh: &MeshEdges) -> bool {
+        let Scope { view, form, .. } = scope;
+        if form.center.w == 0.0 || form.is_point() || form.cell.is_some() || placed.posed {
+            return false;
+        }
+        let around = form.bounds().grown(scope.rounding);
+        placed.bounds.overlaps(&around) && may_touch(view.casters, placed, mesh, &around)
     }
 
     /// What is counted from infinity has its surface drawn, and where its shadow ends.

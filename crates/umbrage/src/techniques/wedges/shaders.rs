@@ -1,5 +1,6 @@
 //! The shaders of the one draw and of its pictures.
 
+use super::cuts::Cut;
 use super::records;
 use crate::shader::{HostConstant, Module, Shader};
 
@@ -10,6 +11,7 @@ const MODULES: &[Module] = &[
     Module { name: "body", source: include_str!("body.wgsl") },
     Module { name: "cell", source: include_str!("cell.wgsl") },
     Module { name: "draw", source: include_str!("draw.wgsl") },
+    Module { name: "cuts", source: include_str!("cuts.wgsl") },
     Module { name: "resolve", source: include_str!("resolve.wgsl") },
     Module { name: "term_analytic", source: include_str!("term_analytic.wgsl") },
     Module { name: "term_table", source: include_str!("term_table.wgsl") },
@@ -42,6 +44,13 @@ pub(super) const DRAWS: [Shader; 3] = [
     shader("wedges", "// needs: draw, term_analytic").with_constants(&[GROUP]),
     shader("wedges by table", "// needs: draw, term_table"),
     shader("wedges of a picture", "// needs: draw, term_picture"),
+];
+
+/// Makes up for what wedges lack of casters that the light touches.
+pub(super) const CUTS: [Shader; 3] = [
+    shader("cut casters", "// needs: cuts, term_analytic").with_layouts(&[Cut::LAYOUT]),
+    shader("cut casters by table", "// needs: cuts, term_table"),
+    shader("cut casters of a picture", "// needs: cuts, term_picture"),
 ];
 
 /// From shares to visibility.

@@ -231,7 +231,7 @@ impl Technique for Wedges {
         }
         let has_picture = self.tables.prepare(gpu, view, self.options.split);
         let mut form = Form::of(&view.light.shape, has_picture, self.options.point_radius);
-        if form.is_point() && is_on_a_caster(gpu, view, form.center)? {
+        if is_on_a_caster(gpu, view, form.center)? {
             form = form.off_ties(view.rounding());
         }
         self.casting = view.casters.casting().len() as u32;
