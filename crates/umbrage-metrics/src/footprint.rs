@@ -46,13 +46,15 @@ pub fn map_reach(
     reach_of(&texel_footprint(views, splits, camera, depth, normal))
 }
 
-/// The same of a [`texel_footprint`] that is already known.
+/// The same of a [`texel_footprint`] that is already known. A map with a texel without end does not
+/// show the place at all, which is no question of its resolution: there it is judged as if there
+/// were none.
 pub fn reach_of(footprint: &Image<f32>) -> Image<f32> {
-    footprint.map(|texel| TEXELS * texel)
+    footprint.map(|&texel| if texel.is_finite() { TEXELS * texel } else { 0.0 })
 }
 
 /// Sizes of texels on the screen, pixels: where they are large, shadow edges are jagged; under 1
-/// they are wasted.
+/// they are wasted. Infinite where so many pixels show what a map has no room for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aliasing {
     /// Half of the pixels have no larger one.
@@ -107,6 +109,12 @@ mod tests {
     use umbrage_core::glam::DVec3;
     use umbrage_core::light_view::{Fit, FitScene, Focus, Omni, fit};
     use umbrage_core::{Bounds, LightShape};
+
+    #[test]
+    fn a_texel_without_end_excuses_nothing() {
+        let footprint = Image { width: 3, height: 1, data: vec![0.5, f32::INFINITY, 0.0] };
+        assert_eq!(reach_of(&footprint).data, [1.0, 0.0, 0.0]);
+    }
 
     #[test]
     fn a_map_of_half_the_texels_reaches_twice_as_far() {
