@@ -17,6 +17,16 @@ const LEAST: f64 = 1.0 / 512.0;
 /// Turns of the map that are tried, over a right angle.
 const TURNS: u32 = 24;
 
+/// Least share that the light's own axis has of the horizon for the rays' own coordinates to go
+/// with it: without any they would not tell all rays apart.
+const AHEAD: f64 = 0.1;
+
+/// Two functions of the rays that with the horizon tell all of them apart.
+fn across(horizon: DVec3) -> (DVec3, DVec3) {
+    let unit = horizon.normalize_or(DVec3::Z);
+    if unit.z.abs() > AHEAD { (DVec3::X, DVec3::Y) } else { unit.any_orthonormal_pair() }
+}
+
 /// The nearest horizon to this one that leaves every ray well on its positive side.
 pub(super) fn moved_off(horizon: DVec3, hull: &[DVec2]) -> DVec3 {
     let heights = hull.iter().map(|ray| horizon.dot(ray.extend(1.0)));
@@ -34,14 +44,16 @@ impl FlatMap {
     /// small.
     pub fn new(horizon: DVec3, hull: &[DVec2], fit: &Fit) -> Option<Self> {
         let horizon = moved_off(horizon, hull);
-        let flat: Vec<DVec2> = hull.iter().map(|ray| *ray / horizon.dot(ray.extend(1.0))).collect();
+        let (right, up) = across(horizon);
+        let place = |ray: DVec3| DVec2::new(right.dot(ray), up.dot(ray)) / horizon.dot(ray);
+        let flat: Vec<DVec2> = hull.iter().map(|ray| place(ray.extend(1.0))).collect();
         let turned = |i: u32| DMat2::from_angle(std::f64::consts::FRAC_PI_2 * f64::from(i) / f64::from(TURNS));
         let rect = |turn: DMat2| Rect::of(flat.iter().map(|p| turn * *p));
         let area = |i: &u32| rect(turned(*i)).map_or(f64::INFINITY, |r| (r.max - r.min).element_product());
         let turn = turned((0..TURNS).min_by(|a, b| area(a).total_cmp(&area(b)))?);
         let crop = Crop::to(rect(turn)?, fit);
         let crop = DMat3::from_cols(DVec3::X * crop.scale.x, DVec3::Y * crop.scale.y, crop.moved.extend(1.0));
-        let bend = DMat3::from_cols(DVec3::X, DVec3::Y, horizon).transpose();
+        let bend = DMat3::from_cols(right, up, horizon).transpose();
         let map = Self { clip_from_ray: crop * DMat3::from_mat2(turn) * bend };
         map.clip_from_ray.is_finite().then_some(map)
     }

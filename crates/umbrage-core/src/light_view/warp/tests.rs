@@ -312,3 +312,21 @@ fn odd_scenes_lights_and_cameras_give_finite_views() {
         }
     }
 }
+
+#[test]
+fn a_horizon_along_the_axis_of_a_face_shows_all_places_apart() {
+    // Under a lamp beside the view, the best horizon of the floor holds the axes of two faces.
+    let camera = Camera { eye: DVec3::new(0.0, 3.0, 12.0), target: DVec3::ZERO, fov_y_deg: 50.0, ..Camera::default() };
+    let floor = Bounds { min: DVec3::new(-30.0, 0.0, -30.0), max: DVec3::new(30.0, 0.0, 30.0) };
+    let scene = FitScene::new(vec![floor], vec![floor]);
+    let light = LightShape::Point { position: DVec3::new(4.0, 12.0, -3.0) };
+    let warp = Warp::Plane { plane: None, gives_way: false };
+    let mut views = Vec::new();
+    fit_warped(&light, &camera.view(240, 180), &scene, &warp, &FIT, &mut views);
+    assert!(views.len() > 2, "{}", views.len());
+    for view in &views {
+        let rows = [0, 1, 3].map(|i| view.clip_from_world.row(i).truncate().normalize());
+        let volume = rows[0].cross(rows[1]).dot(rows[2]);
+        assert!(volume.abs() > 1e-4, "layer {}: {volume}", view.layer);
+    }
+}
