@@ -63,11 +63,8 @@ fn main() {
         }
         number += 1;
     }
-    println!(
-        "done: {} inputs, {findings} findings, {:.0} s",
-        number - arguments.first,
-        started.elapsed().as_secs_f64()
-    );
+    let (inputs, seconds) = (number - arguments.first, started.elapsed().as_secs_f64());
+    println!("done: {inputs} inputs, {} of them opened, {findings} findings, {seconds:.0} s", check.opened());
 }
 
 fn read_arguments() -> Option<Arguments> {
