@@ -10,7 +10,7 @@ pub(crate) const MOST_PIXELS: u64 = 1 << 26;
 pub(crate) const MOST_PIXELS_IN_ALL: u64 = 1 << 28;
 
 /// Numbers that are read out of the accessors of a glTF file.
-pub(crate) const MOST_NUMBERS: u64 = 1 << 28;
+pub(crate) const MOST_NUMBERS: u64 = 1 << 27;
 
 /// Elements of an accessor without bytes behind them.
 pub(crate) const MOST_ZEROS: usize = 1 << 20;

@@ -3,12 +3,27 @@
 use crate::Error;
 use std::borrow::Cow;
 use std::path::Path;
+use std::string::FromUtf8Error;
 
 /// The text of a file: UTF-8 or UTF-16, with or without its mark, with `\n` after every line.
 ///
 /// # Errors
 /// UTF-32, or bytes that are no text in the encoding which their mark names.
 pub(crate) fn decode(file: &Path, bytes: Vec<u8>) -> Result<String, Error> {
+    decode_or(file, bytes, |e| Err(not_text(file, e.utf8_error())))
+}
+
+/// The same for files of a time before UTF-8: what is not UTF-8 is Latin-1, where every byte is a
+/// letter, so that names stay apart.
+pub(crate) fn decode_old(file: &Path, bytes: Vec<u8>) -> Result<String, Error> {
+    decode_or(file, bytes, |e| Ok(e.into_bytes().into_iter().map(char::from).collect()))
+}
+
+fn decode_or(
+    file: &Path,
+    mut bytes: Vec<u8>,
+    otherwise: impl FnOnce(FromUtf8Error) -> Result<String, Error>,
+) -> Result<String, Error> {
     let text = match bytes.as_slice() {
         [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => return Err(not_text(file, "it seems to be UTF-32")),
         [0xff, 0xfe, rest @ ..] => utf16(file, rest, u16::from_le_bytes)?,
@@ -18,23 +33,11 @@ pub(crate) fn decode(file: &Path, bytes: Vec<u8>) -> Result<String, Error> {
         [0, a, 0, b, ..] if *a != 0 && *b != 0 => utf16(file, &bytes, u16::from_be_bytes)?,
         _ => {
             let mark = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
-            let mut bytes = bytes;
             bytes.drain(..mark);
-            String::from_utf8(bytes).map_err(|e| not_text(file, e.utf8_error()))?
+            String::from_utf8(bytes).or_else(otherwise)?
         }
     };
     Ok(with_newlines(text))
-}
-
-/// The same for files of a time before UTF-8: what is not UTF-8 is Latin-1, where every byte is a
-/// letter, so that names stay apart.
-pub(crate) fn decode_old(file: &Path, bytes: Vec<u8>) -> Result<String, Error> {
-    match decode(file, bytes.clone()) {
-        Err(_) if !bytes.starts_with(&[0xff, 0xfe]) && !bytes.starts_with(&[0xfe, 0xff]) => {
-            Ok(with_newlines(bytes.into_iter().map(char::from).collect()))
-        }
-        decoded => decoded,
-    }
 }
 
 fn utf16(file: &Path, bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Result<String, Error> {

@@ -23,6 +23,9 @@ use watch::Watch;
 /// One input in so many goes through the command.
 const THROUGH_COMMAND: u64 = 500;
 
+/// Bytes of a file that is read.
+const LARGEST: usize = 1 << 20;
+
 /// What the command line says: for how long, where failing inputs are kept, where the command is,
 /// and the number of the first input.
 struct Arguments {
@@ -87,7 +90,7 @@ fn change(corpus: &[Case], number: u64) -> Case {
         let other = &other.files[dice.below(other.files.len())].bytes;
         let index = dice.below(case.files.len());
         let file = &mut case.files[index];
-        file.bytes = match file.name.rsplit('.').next().unwrap_or_default() {
+        let changed = match file.name.rsplit('.').next().unwrap_or_default() {
             _ if dice.is_one_in(40) => binary::splice(&mut dice, &file.bytes, other),
             "obj" | "mtl" | "toml" => text::change(&mut dice, &file.bytes),
             "gltf" => json::change(&mut dice, &file.bytes),
@@ -95,6 +98,10 @@ fn change(corpus: &[Case], number: u64) -> Case {
             "png" => binary::change_png(&mut dice, &file.bytes),
             _ => binary::change(&mut dice, &file.bytes),
         };
+        // Files that are large cost what they cost; those looked for are small.
+        if changed.len() <= LARGEST {
+            file.bytes = changed;
+        }
     }
     case
 }

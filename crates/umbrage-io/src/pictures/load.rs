@@ -1,7 +1,7 @@
 //! Pictures from files.
 
 use crate::error::{self, Error};
-use crate::limits::{Budget, MOST_PIXELS};
+use crate::limits::{Budget, MOST_PIXELS, MOST_PIXELS_IN_ALL};
 use exr::prelude::{AnyChannels, FlatSamples, MetaData, ReadChannels, ReadLayers};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 use std::io::Cursor;
@@ -74,7 +74,7 @@ pub fn load_rgb(path: &Path) -> Result<Image<[f32; 3]>, Error> {
     if image::guess_format(&bytes).ok() == Some(ImageFormat::OpenExr) {
         return Exr::decode(path, &bytes)?.rgb(path);
     }
-    let picture = decode(path, &bytes, &[ImageFormat::Hdr], &mut Budget::new(MOST_PIXELS / 2))?.into_rgb32f();
+    let picture = decode(path, &bytes, &[ImageFormat::Hdr], &mut Budget::new(MOST_PIXELS))?.into_rgb32f();
     let (width, height) = picture.dimensions();
     let data = bytemuck::allocation::try_cast_vec(picture.into_raw())
         .unwrap_or_else(|(_, numbers)| numbers.as_chunks::<3>().0.to_vec());
@@ -97,8 +97,13 @@ fn decode(name: &Path, bytes: &[u8], formats: &[ImageFormat], pixels: &mut Budge
         return Err(Error::new(name, "has no pixels").remedy("export it again"));
     }
     let count = u64::from(width) * u64::from(height);
-    if count > MOST_PIXELS || !pixels.take(count) {
+    if count > MOST_PIXELS {
         return Err(too_large(name, width as usize, height as usize));
+    }
+    if !pixels.take(count) {
+        let what =
+            format!("is one picture of {width} × {height} pixels too many: of a model {MOST_PIXELS_IN_ALL} are read");
+        return Err(Error::new(name, what).remedy("scale the pictures down, or name fewer"));
     }
     let bits = count * u64::from(decoder.original_color_type().bits_per_pixel());
     if format == ImageFormat::Png && bits / 8 > MOST_PACKED * bytes.len() as u64 {
@@ -112,8 +117,8 @@ fn decode(name: &Path, bytes: &[u8], formats: &[ImageFormat], pixels: &mut Budge
 const MOST_PACKED: u64 = 1100;
 
 fn too_large(name: &Path, width: usize, height: usize) -> Error {
-    let what = format!("is too large with {width} × {height} pixels: of a picture {MOST_PIXELS} are read");
-    Error::new(name, format!("{what}, of all of a model 4 times as many")).remedy("scale it down")
+    let what = format!("is too large with {width} × {height} pixels: {MOST_PIXELS} are read of a picture");
+    Error::new(name, what).remedy("scale it down")
 }
 
 /// An EXR with all channels of its first layer.

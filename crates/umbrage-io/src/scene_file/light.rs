@@ -1,9 +1,11 @@
 //! `[[light]]`.
 
 use super::reader::{Table, Value, is_positive};
+use crate::limits::{Budget, MOST_PIXELS_IN_ALL};
 use crate::{Error, pictures};
 use glam::{DMat3, DVec3};
-use std::path::Path;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
 use umbrage_core::{Light, LightShape, Scene};
 
 const COMMON: [&str; 6] = ["kind", "color", "intensity", "attenuation", "range", "casts"];
@@ -20,15 +22,46 @@ const KINDS: [(&str, &[&str]); 8] = [
     ("line", &["from", "to"]),
 ];
 
-/// Reads a light; the texture of a rect goes into the scene.
-pub(super) fn read(scene: &mut Scene, dir: &Path, table: &Table<'_>) -> Result<Light, Error> {
+/// Reads lights; the textures of rects go into the scene, each once.
+pub(super) struct Lights<'a> {
+    /// What paths are relative to.
+    dir: &'a Path,
+    /// Index into the scene's textures by file.
+    textures: HashMap<PathBuf, usize>,
+    pixels: Budget,
+}
+
+impl<'a> Lights<'a> {
+    /// Paths are relative to `dir`.
+    pub fn new(dir: &'a Path) -> Self {
+        Self { dir, textures: HashMap::new(), pixels: Budget::new(MOST_PIXELS_IN_ALL) }
+    }
+
+    /// The light of a table.
+    pub fn read(&mut self, scene: &mut Scene, table: &Table<'_>) -> Result<Light, Error> {
+        read(self, scene, table)
+    }
+
+    fn texture(&mut self, scene: &mut Scene, path: &Value<'_>) -> Result<usize, Error> {
+        let file = self.dir.join(path.string()?);
+        if let Some(known) = self.textures.get(&file) {
+            return Ok(*known);
+        }
+        let texture = pictures::load_within(&file, &mut self.pixels).map_err(|e| path.error("names").passing_on(&e))?;
+        scene.textures.push(texture);
+        self.textures.insert(file, scene.textures.len() - 1);
+        Ok(scene.textures.len() - 1)
+    }
+}
+
+fn read(lights: &mut Lights<'_>, scene: &mut Scene, table: &Table<'_>) -> Result<Light, Error> {
     let kind = table.require("kind")?;
     let name = kind.string()?;
     let Some((_, keys)) = KINDS.iter().find(|(k, _)| *k == name) else {
         return Err(kind.error(format!("`{name}` is unknown")).did_you_mean(name, KINDS.map(|(k, _)| k)));
     };
     table.check_keys(&[&COMMON, keys])?;
-    let default = Light::new(read_shape(scene, dir, table, name)?);
+    let default = Light::new(read_shape(lights, scene, table, name)?);
     Ok(Light {
         color: table.get_or("color", default.color, Value::color)?,
         intensity: table.get_or("intensity", default.intensity, |v| v.not_negative().map(|i| i as f32))?,
@@ -45,7 +78,7 @@ pub(super) fn read(scene: &mut Scene, dir: &Path, table: &Table<'_>) -> Result<L
     })
 }
 
-fn read_shape(scene: &mut Scene, dir: &Path, table: &Table<'_>, kind: &str) -> Result<LightShape, Error> {
+fn read_shape(lights: &mut Lights<'_>, scene: &mut Scene, table: &Table<'_>, kind: &str) -> Result<LightShape, Error> {
     let position = || table.require("position")?.vec3();
     let direction = || table.require("direction")?.direction();
     let radius = || table.require("radius")?.not_negative();
@@ -75,7 +108,7 @@ fn read_shape(scene: &mut Scene, dir: &Path, table: &Table<'_>, kind: &str) -> R
             let Some(up) = up.direction()?.reject_from_normalized(direction).try_normalize() else {
                 return Err(up.error("lies along `direction`").remedy("give another one"));
             };
-            let texture = table.get("texture").map(|v| read_texture(scene, dir, &v)).transpose()?;
+            let texture = table.get("texture").map(|v| lights.texture(scene, &v)).transpose()?;
             let size = table.require("size")?.positive2()?;
             LightShape::Rect { position: position()?, direction, up, size, texture }
         }
@@ -100,15 +133,6 @@ fn read_cone(table: &Table<'_>) -> Result<[f64; 2], Error> {
         return Err(inner.error(format!("is {inner_deg}, larger than `outer_angle`, {outer_deg}")));
     }
     Ok([inner_deg, outer_deg])
-}
-
-fn read_texture(scene: &mut Scene, dir: &Path, path: &Value<'_>) -> Result<usize, Error> {
-    let texture = pictures::load_texture(&dir.join(path.string()?)).map_err(|e| path.error("names").passing_on(&e))?;
-    let known = scene.textures.iter().position(|t| *t == texture);
-    Ok(known.unwrap_or_else(|| {
-        scene.textures.push(texture);
-        scene.textures.len() - 1
-    }))
 }
 
 /// Rz · Ry · Rx of angles in degrees.

@@ -5,6 +5,7 @@ mod model;
 mod reader;
 
 use crate::{Error, Opened, defaults, finish, title};
+use light::Lights;
 use model::Models;
 use reader::{Source, Table, Value};
 use std::path::Path;
@@ -36,8 +37,9 @@ pub(crate) fn read(text: &str, dir: &Path, file: &Path) -> Result<Opened, Error>
         }
     }
     if let Some(tables) = root.get("light") {
+        let mut lights = Lights::new(dir);
         for table in tables.tables()? {
-            let light = light::read(&mut scene, dir, &table)?;
+            let light = lights.read(&mut scene, &table)?;
             scene.lights.push(light);
         }
     }
