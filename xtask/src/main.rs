@@ -2,6 +2,7 @@
 //! needs Rust and git only.
 
 mod bench;
+mod browser;
 mod demo;
 mod docs;
 mod fuzz;
@@ -10,6 +11,7 @@ mod setup;
 mod shell;
 mod tables;
 mod test;
+mod validation;
 
 use anyhow::{Result, bail};
 use std::process::ExitCode;
@@ -22,6 +24,9 @@ cargo xtask COMMAND
   test    run the whole test suite
   portable
           check that the library compiles for browsers, and with the oldest toolchain that is promised
+  browser compile every shader in Chromium, whose compiler of WGSL is another one than wgpu's
+  validation
+          render with every technique under Vulkan's validation layer; what it reports has to be known
   bench   measure the standard set of scenes and write benchmarks/<date>-<machine>/
   fuzz MINUTES
           read damaged files of every kind; what fails is kept in out/fuzz/
@@ -52,6 +57,8 @@ fn run() -> Result<()> {
         ["demo"] => demo::run(),
         ["test", rest @ ..] => test::run(rest),
         ["portable"] => portable::run(),
+        ["browser"] => browser::run(),
+        ["validation"] => validation::run(),
         ["bench"] => bench::run(),
         ["fuzz", minutes] => fuzz::run(minutes),
         ["docs"] => docs::tables(),

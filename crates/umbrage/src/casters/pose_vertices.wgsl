@@ -7,8 +7,8 @@ struct JointRows {
     row2: vec4f,
 }
 
-// Normal, texture coordinate, opacity. Normals have a pass of their own, so that neither pass has more
-// than the four storage buffers that the smallest devices allow.
+// Normal, texture coordinate, opacity. Normals have a pass of their own, so that neither pass has
+// more than the four storage buffers that the smallest devices allow.
 @group(0) @binding(2) var<storage, read_write> attributes: array<f32>;
 @group(1) @binding(0) var<storage, read> joints: array<JointRows>;
 // Where the joints of each vertex start in here; then pairs of a joint and the bits of its weight.
