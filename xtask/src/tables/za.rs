@@ -12,10 +12,17 @@ const BUNNY: usize = 16_301;
 const SIZES: [u32; 2] = [700, 900];
 const FRAMES: u32 = 8;
 
-/// Points of the light that brute force is measured with. Its time is proportional to them, so
-/// those of the tables are multiples of this one's; the huge scene with 64 would take longer than
-/// all the rest.
-const POINTS: u32 = 16;
+/// Points of the light that brute force is measured with for tables of 64 and of 100 points, a
+/// quarter of them each: the huge scene with 64 would take longer than all the rest.
+const POINTS: [u32; 2] = [16, 25];
+const TIMES: f64 = 4.0;
+
+/// Frames of brute force: one alone tells nothing of how far times scatter.
+const BRUTE_FRAMES: u32 = 3;
+
+/// Hard maps with and without the automatic bias, which midpoint maps are to do without.
+const BIAS: [&str; 4] =
+    ["shadow-map", "shadow-map:faces=midpoint", "shadow-map:bias=0", "shadow-map:faces=midpoint:bias=0"];
 
 /// Scale, degrees of turn, and place of each bunny.
 const BUNNIES: [(f64, f64, [f64; 2]); 7] = [
@@ -73,7 +80,7 @@ const METHODS: [Method; 22] = [
     method("volume, hard", Some("volume"), same(2.58, 3.62), same(2.52, 3.63), same(13.86, 16.08), 88.113),
     brute(method(
         "volume, depth pass",
-        Some("volume:count=z-pass"),
+        Some("volume:count=z-pass:reach=infinite:cull=none"),
         same(61.69, 88.26),
         same(96.43, 139.47),
         same(512.82, 568.18),
@@ -81,7 +88,7 @@ const METHODS: [Method; 22] = [
     )),
     brute(method(
         "volume, depth fail",
-        Some("volume:count=z-fail"),
+        Some("volume:count=z-fail:reach=infinite:cull=none"),
         same(100.00, 147.06),
         same(161.55, 234.19),
         same(645.16, 763.36),
@@ -89,7 +96,7 @@ const METHODS: [Method; 22] = [
     )),
     brute(method(
         "volume, XOR",
-        Some("volume:count=xor"),
+        Some("volume:count=xor:reach=infinite:cull=none"),
         same(97.28, 142.65),
         same(151.75, 222.22),
         same(558.66, 684.93),
@@ -148,7 +155,7 @@ const METHODS: [Method; 22] = [
     ),
     method(
         "map, blur /b/",
-        Some("pcf-blur"),
+        Some("pcf-blur:radius=7"),
         [11.75, 13.75, 12.34, 14.34],
         [11.81, 13.81, 12.38, 14.38],
         [19.28, 25.28, 19.22, 25.22],
@@ -156,7 +163,7 @@ const METHODS: [Method; 22] = [
     ),
     method(
         "map, blur /m/",
-        Some("pcf-blur:faces=midpoint"),
+        Some("pcf-blur:radius=7:faces=midpoint"),
         [11.27, 24.27, 12.08, 25.08],
         [11.34, 24.34, 12.10, 25.10],
         [17.39, 36.39, 18.37, 37.37],
@@ -196,7 +203,7 @@ const METHODS: [Method; 22] = [
     ),
     method(
         "map, combined /b/",
-        Some("pcss-jitter"),
+        Some("pcss-jitter:noise=stratified"),
         [32.26, 36.26, 46.58, 50.58],
         [31.59, 35.59, 46.25, 50.25],
         [59.88, 68.88, 81.17, 90.17],
@@ -204,7 +211,7 @@ const METHODS: [Method; 22] = [
     ),
     method(
         "map, combined /m/",
-        Some("pcss-jitter:faces=midpoint"),
+        Some("pcss-jitter:noise=stratified:faces=midpoint"),
         [38.71, 60.71, 56.40, 78.40],
         [39.02, 61.02, 57.67, 79.67],
         [69.78, 97.78, 93.81, 121.81],
@@ -213,10 +220,10 @@ const METHODS: [Method; 22] = [
 ];
 
 impl Method {
-    /// As a list of techniques has it.
-    fn label(&self) -> Option<String> {
+    /// As a list of techniques has it, brute force with so many points.
+    fn label(&self, points: u32) -> Option<String> {
         let technique = self.technique?;
-        Some(if self.brute { format!("{technique}:light-samples={POINTS}") } else { technique.into() })
+        Some(if self.brute { format!("{technique}:light-samples={points}") } else { technique.into() })
     }
 }
 
@@ -228,14 +235,18 @@ pub fn run() -> Result<()> {
         ("za-huge.scene.toml", huge()),
     ])?;
     let scenes = scenes[1..].join(" ");
-    let list =
-        |brute| METHODS.iter().filter(|m| m.brute == brute).filter_map(Method::label).collect::<Vec<_>>().join(",");
-    let (fast, brute) = (list(false), list(true));
+    let labels = |brute: bool, points: &[u32]| -> Vec<String> {
+        let of = |points: u32| METHODS.iter().filter(|m| m.brute == brute).filter_map(move |m| m.label(points));
+        points.iter().flat_map(|points| of(*points)).collect()
+    };
+    let (fast, brute) = (labels(false, &POINTS[..1]).join(","), labels(true, &POINTS).join(","));
     let bench = |techniques: &str, size: u32, moving: &str, frames: u32| {
         let how = format!("--moving {moving} --frames {frames} --size {size}x{size} --json");
         format!("bench {scenes} --techniques {techniques} {how}")
     };
-    let all = METHODS.iter().filter_map(Method::label).collect::<Vec<_>>().join(",");
+    let mut all = [labels(false, &POINTS[..1]), labels(true, &POINTS[..1])].concat();
+    all.extend(BIAS.iter().filter(|way| way.contains("bias")).map(|way| way.to_string()));
+    let all = all.join(",");
     let compare = format!(
         "compare {scenes} --techniques {all} --samples 1024 --size 350x350 --frames 1 --json -o target/tables/za"
     );
@@ -244,8 +255,8 @@ pub fn run() -> Result<()> {
         Run { file: "static-900.json", line: bench(&fast, SIZES[1], "still", FRAMES) },
         Run { file: "dynamic-700.json", line: bench(&fast, SIZES[0], "lights", FRAMES) },
         Run { file: "dynamic-900.json", line: bench(&fast, SIZES[1], "lights", FRAMES) },
-        Run { file: "brute-force-700.json", line: bench(&brute, SIZES[0], "lights", 1) },
-        Run { file: "brute-force-900.json", line: bench(&brute, SIZES[1], "lights", 1) },
+        Run { file: "brute-force-700.json", line: bench(&brute, SIZES[0], "lights", BRUTE_FRAMES) },
+        Run { file: "brute-force-900.json", line: bench(&brute, SIZES[1], "lights", BRUTE_FRAMES) },
         Run { file: "correctness.json", line: compare },
     ];
     let (folder, found) = measure("maps", &runs)?;
@@ -276,21 +287,33 @@ fn text(found: &[Value]) -> String {
     let _ = writeln!(
         text,
         "Scenes of {} and {} triangles under a sphere light of radius 0.5 m. Milliseconds of a frame, medians of {FRAMES} frames, techniques in \
-         turn; *static*: nothing moves, and what a technique keeps is kept; *dynamic*: the light moves. Brute force is measured with \
-         {POINTS} points of a light that moves, one frame after three to warm up, and multiplied. In brackets the thesis' numbers of 2007: only \
-         ratios within a column compare.\n\nRaw numbers: the JSON files here.\n\n## What the numbers say\n",
+         turn; *static*: nothing moves, and what a technique keeps is kept; *dynamic*: the light moves; *dynamic part*: the passes that only \
+         frames with a moving light have. Brute force is measured with {} points of a light that moves for the tables of 64 and with {} for that \
+         of 100, medians of {BRUTE_FRAMES} frames after three to warm up, and multiplied by {TIMES}; volumes have neither end nor culling \
+         there, as in the thesis. In brackets the thesis' numbers of 2007: only ratios within a column compare.\n\nRaw numbers: the JSON files here.\n\n## What the numbers say\n",
         triangles(0),
-        triangles(1)
+        triangles(1),
+        POINTS[0],
+        POINTS[1],
     );
     let tables = [
-        ("5.1: basic scene, 64 points of the light", 0, 64, (|m| m.basic) as fn(&Method) -> [f64; 4]),
-        ("5.2: basic scene, 100 points of the light", 0, 100, |m| m.hundred),
-        ("5.3: huge scene, 64 points of the light", 1, 64, |m| m.huge),
+        ("5.1: basic scene, 64 points of the light", 0, POINTS[0], (|m| m.basic) as fn(&Method) -> [f64; 4]),
+        ("5.2: basic scene, 100 points of the light", 0, POINTS[1], |m| m.hundred),
+        ("5.3: huge scene, 64 points of the light", 1, POINTS[0], |m| m.huge),
     ];
     for (title, scene, points, thesis) in tables {
         text += &times(title, found, scene, points, thesis);
     }
-    text + &correctness(&found[6])
+    text + &correctness(&found[6]) + &biased(&found[6])
+}
+
+/// Milliseconds of the passes that frames with a moving light have and others have not: what is
+/// kept otherwise.
+fn dynamic_ms(still: &Value, moving: &Value) -> Option<f64> {
+    let passes = |result: &Value| result["cost"]["passes"].as_array().cloned();
+    let (still, moving) = (passes(still)?, passes(moving)?);
+    let is_kept = |pass: &&Value| still.iter().any(|s| (&s["owner"], &s["pass"]) == (&pass["owner"], &pass["pass"]));
+    Some(moving.iter().filter(|pass| !is_kept(pass)).filter_map(|pass| pass["time_ms"]["median"].as_f64()).sum())
 }
 
 fn times(title: &str, found: &[Value], scene: usize, points: u32, thesis: fn(&Method) -> [f64; 4]) -> String {
@@ -299,7 +322,7 @@ fn times(title: &str, found: &[Value], scene: usize, points: u32, thesis: fn(&Me
     for method in &METHODS {
         // Static and dynamic at either size.
         let own = [0, 2, 1, 3].map(|run: usize| {
-            let label = method.label()?;
+            let label = method.label(points)?;
             if !method.brute {
                 return frame_ms(result(&found[run], scene, &label)?);
             }
@@ -307,10 +330,12 @@ fn times(title: &str, found: &[Value], scene: usize, points: u32, thesis: fn(&Me
             let rest = frame_ms(result(&found[run], scene, "none")?)?;
             let all = frame_ms(result(&found[4 + size], scene, &label)?)?;
             // What is not the technique's own does not multiply.
-            Some(rest + (all - rest) * f64::from(points) / f64::from(POINTS))
+            Some(rest + (all - rest) * TIMES)
         });
         let thesis = thesis(method);
-        let part = own[0].zip(own[1]).map(|(still, moving)| moving - still);
+        let label = method.label(points).filter(|_| !method.brute);
+        let part =
+            label.and_then(|label| dynamic_ms(result(&found[0], scene, &label)?, result(&found[2], scene, &label)?));
         let mut cells = vec![
             method.name.to_string(),
             method.technique.map_or("–".into(), |technique| format!("`{technique}`")),
@@ -326,11 +351,12 @@ fn correctness(json: &Value) -> String {
     let columns = ["method", "technique", "thesis, %", "basic, %", "huge, %", "basic, mae", "huge, mae"];
     let mut text = format!(
         "\n## 5.4: correctness\nPercentage of scored pixels whose visibility is off by at most 0.02 from 1024 rays, 350×350; brute force with \
-         {POINTS} points. The thesis compares shaded pictures with its own depth-fail volumes of 1,000 and more points.\n\n{}",
+         {} points. The thesis compares shaded pictures with its own depth-fail volumes of 1,000 and more points.\n\n{}",
+        POINTS[0],
         head(&columns)
     );
     for method in &METHODS {
-        let label = method.label();
+        let label = method.label(POINTS[0]);
         let score = |scene: usize, name: &str| result(json, scene, label.as_deref()?)?["scores"][name].as_f64();
         text += &row([
             method.name.to_string(),
@@ -341,6 +367,22 @@ fn correctness(json: &Value) -> String {
             number(score(0, "mae"), 4),
             number(score(1, "mae"), 4),
         ]);
+    }
+    text
+}
+
+/// What the bias does to maps, and midpoint maps for it.
+fn biased(json: &Value) -> String {
+    let columns =
+        ["technique", "basic: interior, %", "false shadow", "leak", "huge: interior, %", "false shadow", "leak"];
+    let mut text = format!("\n## Bias: what midpoint maps do without\n{}", head(&columns));
+    for way in BIAS {
+        let score = |scene: usize, name: &str| result(json, scene, way)?["scores"][name].as_f64();
+        let scores = |scene| {
+            let [interior, shadow, leak] = ["interior_pct", "false_shadow", "leak"].map(|name| score(scene, name));
+            [number(interior, 2), number(shadow, 4), number(leak, 4)]
+        };
+        text += &row(std::iter::once(format!("`{way}`")).chain(scores(0)).chain(scores(1)));
     }
     text
 }
@@ -363,14 +405,20 @@ mod tests {
     #[test]
     fn times_go_to_their_columns_and_brute_force_is_multiplied() {
         let report = |none: f64| {
-            let of = |id: &str, samples: Value, ms: f64| json!({"technique": id, "settings": {}, "light_samples": samples, "cost": {"frame_ms": {"median": ms}}});
-            let results = [of("none", Value::Null, none), of("shadow-map", POINTS.into(), 10.0)];
+            let pass = |name: &str| json!({"owner": "light 0", "pass": name, "time_ms": {"median": none}});
+            // Only the light that moves, of the third and fourth report, draws a map.
+            let passes = if none > 2.5 { vec![pass("map"), pass("visibility")] } else { vec![pass("visibility")] };
+            let of = |id: &str, samples: Value, ms: f64| {
+                let cost = json!({"frame_ms": {"median": ms}, "passes": passes});
+                json!({"technique": id, "settings": {}, "light_samples": samples, "cost": cost})
+            };
+            let results = [of("none", Value::Null, none), of("shadow-map", POINTS[1].into(), 10.0)];
             json!({"scenes": [{"lights": [{"results": results}]}]})
         };
         let found = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(report);
-        let text = times("a", &found, 0, 4 * POINTS, |m| m.basic);
+        let text = times("a", &found, 0, POINTS[1], |m| m.basic);
         assert!(
-            text.contains("| no shadow | `none` | 2.0 (0) | 1.0 (0.9) | 3.0 (0.9) | 2.0 (1.4) | 4.0 (1.4) |"),
+            text.contains("| no shadow | `none` | 3.0 (0) | 1.0 (0.9) | 3.0 (0.9) | 2.0 (1.4) | 4.0 (1.4) |"),
             "{text}"
         );
         // 3 + 4 × (10 − 3), and 4 + 4 × (10 − 4).
@@ -383,7 +431,7 @@ mod tests {
     #[test]
     fn without_results_every_table_is_there_with_dashes() {
         let text = text(&vec![Value::Null; 7]);
-        assert_eq!(text.matches("\n## 5.").count(), 4);
+        assert_eq!(text.matches("\n## ").count(), 6);
         assert_eq!(text.matches("| map, combined /m/ |").count(), 4);
         assert!(
             text.contains("| projective, soft | – | – (0) | – (17.7) | – (17.7) | – (26.1) | – (26.1) |"),
