@@ -13,8 +13,8 @@ use umbrage_core::{Light, LightShape, Texture};
 /// Up to this many gathered triangles are tested one by one; with more, the hierarchy is faster.
 const MOST_GATHERED: usize = 48;
 
-/// Least cosine between a scored surface's normal and the way to the light's centre. The centre is in
-/// the plane of what has less, as far as rounding can tell, and no light falls on that.
+/// Least cosine between a scored surface's normal and the way to the light's centre. The centre is
+/// in the plane of what has less, as far as rounding can tell, and no light falls on that.
 pub(crate) const LEAST_COSINE: f64 = 1e-6;
 
 /// A light, ready for any surface.

@@ -34,9 +34,9 @@ impl Default for Options {
 pub struct Truth {
     /// Share of the light that each pixel sees, 0…1; 0 where the pixel is not scored.
     pub visibility: Image<f32>,
-    /// True where the pixel shows a receiving surface whose normal faces the centre of the light: by
-    /// a cosine over 1e-6, since surfaces whose plane goes through the centre have no light, and
-    /// rounding must not choose some of their pixels.
+    /// True where the pixel shows a receiving surface whose normal faces the light's centre, by a
+    /// cosine over 1e-6: surfaces whose plane goes through the centre have no light, and rounding
+    /// must not choose some of their pixels.
     pub scored: Image<bool>,
     /// Samples that were tested against triangles; those that cannot meet any are not among them.
     pub rays: u64,

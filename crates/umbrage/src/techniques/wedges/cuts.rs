@@ -1,12 +1,13 @@
 //! Casters that the light touches: triangles that its own plane cuts, see `cuts.wgsl`.
 
 use super::draws::{Draw, HARD};
+use super::records::Cut;
 use super::shaders;
 use super::tables::Term;
 use crate::area_light::Form;
 use crate::casters::Placed;
 use crate::fullscreen::{STORAGE, bind, layout};
-use crate::shader::{Shader, shader_struct};
+use crate::shader::Shader;
 use crate::silhouettes::Throw;
 use crate::{gpu::Gpu, passes::Passes, view::View};
 use umbrage_core::Mesh;
@@ -14,22 +15,15 @@ use umbrage_core::adjacency::{Adjacency, NONE};
 use umbrage_core::glam::{DVec3, DVec4, Vec4};
 use umbrage_core::silhouette::{facing, light_in_mesh};
 
-shader_struct! {
-    /// See `cuts.wgsl`.
-    pub(in crate::techniques::wedges) struct Cut {
-        a: [f32; 4],
-        b: [f32; 4],
-        c: [f32; 4],
-        plane: [f32; 4],
-        off: f32,
-        is_edge: f32,
-        pad: [f32; 2],
-    }
-}
-
 /// Makes up for what wedges lack of what the light touches.
-pub(super) static CUTS: Draw =
-    Draw { vertex: "fullscreen", fragment: "add_cuts", shader: cuts_shader, shares: true, more: Some(cuts_layout), ..HARD };
+pub(super) static CUTS: Draw = Draw {
+    vertex: "fullscreen",
+    fragment: "add_cuts",
+    shader: cuts_shader,
+    shares: true,
+    more: Some(cuts_layout),
+    ..HARD
+};
 
 fn cuts_shader(term: Term) -> Shader {
     shaders::CUTS[term as usize]
@@ -42,8 +36,8 @@ fn cuts_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
 /// Planes that are this near to each other, as a share of their distances, are one.
 const SAME: f64 = 1e-6;
 
-/// Casters of no more triangles are corrected as a whole: also where points and the light are on the
-/// same side of what the light does not touch.
+/// Casters of no more triangles are corrected as a whole: also where points and the light are on
+/// the same side of what the light does not touch.
 const WHOLE: usize = 64;
 
 /// Every pixel goes through all cuts: a caster with more, such as a bulb of many triangles around

@@ -3,8 +3,8 @@
 // where a triangle crosses that plane it ends in an edge that no silhouette has; nor is a triangle
 // turned right for points on the light's side of it, which a light of some size has on both. Both
 // are made up for here, triangle by triangle: what it covers is H + Q + K, with the hard shadow H,
-// the terms Q of its edges, and the term K of the cut. Of that the wedges have H + Q. On the light's
-// side H is 0 and the triangle covers −Q − K; there it is on the other side of a body, too.
+// the terms Q of its edges, and the term K of the cut. Of that the wedges have H + Q. On the
+// light's side H is 0 and the triangle covers −Q − K; there it is on the other side of a body, too.
 
 // A triangle, or an edge of one, relative to the eye.
 struct Cut {

@@ -46,7 +46,14 @@ pub(super) struct Recording<'a> {
 impl Piece {
     pub fn new(gpu: &Gpu, form: Form, extrude: Extrude) -> Self {
         let silhouettes = Silhouettes::new(gpu, extrude);
-        Self { form, term: Term::Analytic, selection: Selection::default(), silhouettes, buffers: None, cuts: CutBuffer::default() }
+        Self {
+            form,
+            term: Term::Analytic,
+            selection: Selection::default(),
+            silhouettes,
+            buffers: None,
+            cuts: CutBuffer::default(),
+        }
     }
 
     /// Silhouettes of the chosen casters, and room for their wedges.
@@ -202,7 +209,8 @@ impl Piece {
     /// What wedges lack of casters that the light touches.
     pub fn cut_casters(&self, pass: &mut wgpu::RenderPass<'_>, view: &View<'_>, r: &Recording<'_>) -> u32 {
         let pipeline = r.pipelines.drawing(self.key(view, &CUTS, r.target));
-        let Some((pipeline, group)) = pipeline.zip(self.cuts.group()).filter(|_| !self.selection.cuts.is_empty()) else {
+        let Some((pipeline, group)) = pipeline.zip(self.cuts.group()).filter(|_| !self.selection.cuts.is_empty())
+        else {
             return 0;
         };
         pass.set_pipeline(pipeline);

@@ -1,6 +1,7 @@
 //! Which casters cast shadows into the view, and from where each is counted.
 
-use super::cuts::{Cut, Touched, cut};
+use super::cuts::{Touched, cut};
+use super::records::Cut;
 use crate::area_light::{Form, casters_in_view, may_touch};
 use crate::casters::{MeshEdges, Placed, before_eye};
 use crate::silhouettes::Throw;

@@ -1,7 +1,6 @@
 //! The shaders of the one draw and of its pictures.
 
-use super::cuts::Cut;
-use super::records;
+use super::records::{self, Cut};
 use crate::shader::{HostConstant, Module, Shader};
 
 /// What the shaders of this folder need of each other.
