@@ -18,7 +18,6 @@ const MOST_KIB: u32 = 2 << 20;
 /// Builds, reads, and tells what was found.
 pub fn run(minutes: &str) -> Result<()> {
     let minutes: f64 = minutes.parse().ok().filter(|m| *m > 0.0).context("write `cargo xtask fuzz MINUTES`")?;
-    let end = Instant::now() + Duration::from_secs_f64(60.0 * minutes);
     let mut build = shell::cargo();
     build.args(["build", "--package", "umbrage-io", "--example", "fuzz"]);
     shell::run(build)?;
@@ -27,7 +26,7 @@ pub fn run(minutes: &str) -> Result<()> {
     let built = built.parent().context("this program lies in no folder")?;
     fs::create_dir_all(FOLDER).with_context(|| format!("{FOLDER} can't be made"))?;
     let (started, mut next, mut findings) = (Instant::now(), first_input(), 0);
-    let first = next;
+    let (end, first) = (started + Duration::from_secs_f64(60.0 * minutes), next);
     while Instant::now() < end {
         let left = end.saturating_duration_since(Instant::now());
         let (stopped_at, found) = read(built, left, next)?;
