@@ -37,18 +37,25 @@ pub(super) fn of(
 /// receiver farther than 0.
 ///
 /// Heights are counted from a plane across the light, or from that of the ground where those are
-/// less: then the ground has the same depth all over the map, and large grounds take no precision
-/// from what stands on them.
+/// much less: then the ground has the same depth all over the map, and large grounds take no
+/// precision from what stands on them.
 fn height_over_horizon(subject: &Subject<'_>, w: DVec4, column: &Frustum, scene: &FitScene) -> Option<DVec4> {
     let up = subject.rays.light.truncate();
     let lowest = subject.points.iter().map(|p| up.dot(*p)).fold(f64::INFINITY, f64::min);
     let mut casters = Vec::new();
     scene.casters.iter().for_each(|b| column.clip_box(b, &mut casters));
     let ground = subject.ground().map(|plane| plane / plane.truncate().dot(up));
-    let heights = [Some(up.extend(-lowest)), ground.filter(|height| height.is_finite())];
-    let depths = heights.into_iter().flatten().filter_map(|height| depth_of(height, w, subject.points, &casters));
-    depths.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(row, _)| row)
+    let depth = |height: DVec4| depth_of(height, w, subject.points, &casters);
+    let across = depth(up.extend(-lowest));
+    let over_ground = ground.filter(|height| height.is_finite()).and_then(depth);
+    match (across, over_ground) {
+        (Some((_, most)), Some((row, over))) if over * MUCH < most => Some(row),
+        (across, over_ground) => across.or(over_ground).map(|(row, _)| row),
+    }
 }
+
+/// How much less heights over the ground have to be.
+const MUCH: f64 = 64.0;
 
 /// The row of depth for heights from some plane, and how high the highest caster is in that measure.
 fn depth_of(height: DVec4, w: DVec4, receivers: &[DVec3], casters: &[DVec3]) -> Option<(DVec4, f64)> {
