@@ -56,7 +56,7 @@ impl Watch {
     }
 
     pub fn begin(&mut self, number: u64) {
-        // In place: a file that is emptied before it is written makes some systems wait for the disk.
+        // In place: some systems wait for the disk where a file is emptied and written again.
         let written = self.number.rewind().and_then(|()| write!(self.number, "{number:020}"));
         written.expect("the number of the input");
         self.now.number.store(number, Relaxed);
