@@ -105,12 +105,24 @@ fn decode(name: &Path, bytes: &[u8], formats: &[ImageFormat], pixels: &mut Budge
             format!("is one picture of {width} × {height} pixels too many: of a model {MOST_PIXELS_IN_ALL} are read");
         return Err(Error::new(name, what).remedy("scale the pictures down, or name fewer"));
     }
-    let bits = count * u64::from(decoder.original_color_type().bits_per_pixel());
-    if format == ImageFormat::Png && bits / 8 > MOST_PACKED * bytes.len() as u64 {
+    if format == ImageFormat::Png && count * png_bits(bytes) / 8 > MOST_PACKED * bytes.len() as u64 {
         let what = format!("is cut off: {width} × {height} pixels do not come out of {} bytes", bytes.len());
         return Err(Error::new(name, what).remedy("export it again"));
     }
     DynamicImage::from_decoder(decoder).map_err(damaged)
+}
+
+/// Bits of a pixel as a PNG packs it: its header has the depth and the kind of colour at the bytes
+/// 24 and 25.
+fn png_bits(bytes: &[u8]) -> u64 {
+    let [depth, kind] = [24, 25].map(|at| bytes.get(at).copied().unwrap_or(0));
+    let channels = match kind {
+        2 => 3,
+        4 => 2,
+        6 => 4,
+        _ => 1,
+    };
+    u64::from(depth) * channels
 }
 
 /// How many bytes may come out of one: what deflate packs best, rounded up.
@@ -208,6 +220,22 @@ mod tests {
         for (got, want) in image.data.iter().zip(pixels) {
             assert!(got.iter().zip(want.0).all(|(a, b)| (a - b).abs() <= 0.02 * b), "{got:?} for {want:?}");
         }
+    }
+
+    #[test]
+    fn plain_pictures_pack_well_and_are_read() {
+        // Pixels of 1 bit each, all alike, is what deflate packs best.
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("plain.png");
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, 4000, 4000);
+        encoder.set_color(png::ColorType::Grayscale);
+        encoder.set_depth(png::BitDepth::One);
+        encoder.set_compression(png::Compression::High);
+        encoder.write_header().unwrap().write_image_data(&vec![0; 2_000_000]).unwrap();
+        assert!(bytes.len() < 10_000, "{} bytes", bytes.len());
+        std::fs::write(&path, bytes).unwrap();
+        assert_eq!(load_texture(&path).unwrap().rgba.len(), 16_000_000);
     }
 
     #[test]
