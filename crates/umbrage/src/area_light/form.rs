@@ -210,10 +210,12 @@ impl Form {
         if self.center.w == 0.0 { way.extend(0.0) } else { self.center + way.extend(0.0) }
     }
 
-    /// The same for a point that may be at a vertex, see [`off_ties`]. Relative to the eye, ways
-    /// are rounded twice.
+    /// The same for a light whose centre may be at a vertex or in a triangle, see [`off_ties`].
+    /// Relative to the eye, ways are rounded twice. What has an extent is moved by a thousandth of
+    /// it, clear of whatever a rasteriser makes of planes that nearly hold the centre.
     pub fn off_ties(self, rounding: f64) -> Self {
-        Self { center: off_ties(self.center, 2.0 * rounding), ..self }
+        let extent = self.half.iter().map(|h| h.length()).fold(0.0, f64::max);
+        Self { center: off_ties(self.center, (2.0 * rounding).max(1e-2 * extent)), ..self }
     }
 
     /// True where it has no extent: shadows are hard.
