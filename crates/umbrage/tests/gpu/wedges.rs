@@ -286,3 +286,11 @@ fn the_largest_share_is_nearer_where_casters_overlap() {
     let (sum, most) = (of(""), of("combine=max"));
     assert!(most < 0.2 * sum, "{most:.4} of {sum:.4}");
 }
+
+#[test]
+fn the_built_in_overlap_shows_what_counts_twice() {
+    let (gpu, scene) = (gpu(), scene("overlap", 0.5));
+    let mae = |set| against_truth(&gpu, &scene, 1, "wedges", set, (96, 72), 32).mae;
+    let (sum, most) = (mae(""), mae("combine=max"));
+    assert!(sum > 0.006 && most < 0.6 * sum, "{sum:.4}, with the largest share {most:.4}");
+}
