@@ -5,6 +5,7 @@ mod bench;
 mod browser;
 mod demo;
 mod docs;
+mod drivers;
 mod fuzz;
 mod portable;
 mod setup;
@@ -30,6 +31,8 @@ cargo xtask COMMAND
   bench   measure the standard set of scenes and write benchmarks/<date>-<machine>/
   fuzz MINUTES
           read damaged files of every kind; what fails is kept in out/fuzz/
+  drivers [--core] [NAME=FILE ...]
+          compare all techniques on this machine's driver, SwiftShader, and drivers by their Vulkan ICD files
   tables za|fe|px
           measure the tables of three theses again: filtered and soft maps (za), splits (fe), wedges (px);
           write maps/, splits/ or loops/ there
@@ -61,6 +64,7 @@ fn run() -> Result<()> {
         ["validation"] => validation::run(),
         ["bench"] => bench::run(),
         ["fuzz", minutes] => fuzz::run(minutes),
+        ["drivers", rest @ ..] => drivers::run(rest),
         ["docs"] => docs::tables(),
         ["docs", "--pictures"] => docs::pictures(),
         ["docs", "--numbers"] => docs::numbers(),

@@ -61,12 +61,12 @@ fn adapters(list: Command) -> Result<Option<Found>> {
 }
 
 /// True on Debian, Ubuntu and what derives from them.
-fn is_debian() -> bool {
+pub fn is_debian() -> bool {
     Path::new("/etc/debian_version").exists() && Path::new("/usr/bin/apt-get").exists()
 }
 
 /// `apt-get`, as root.
-fn apt(arguments: &[&str]) -> Command {
+pub fn apt(arguments: &[&str]) -> Command {
     // The owner of one's own process folder is who one is.
     let root = fs::metadata("/proc/self").is_ok_and(|m| owner(&m) == 0);
     let mut command = Command::new(if root { "apt-get" } else { "sudo" });
