@@ -10,6 +10,7 @@ mod fuzz;
 mod portable;
 mod setup;
 mod shell;
+mod soak;
 mod tables;
 mod test;
 mod validation;
@@ -26,6 +27,8 @@ cargo xtask COMMAND
   portable
           check that the library compiles for browsers, and with the oldest toolchain that is promised
   browser compile every shader in Chromium, whose compiler of WGSL is another one than wgpu's
+  soak MINUTES
+          draw with all techniques while everything changes: memory has to stay level, and pictures right
   validation
           render with every technique under Vulkan's validation layer; what it reports has to be known
   bench   measure the standard set of scenes and write benchmarks/<date>-<machine>/
@@ -61,6 +64,7 @@ fn run() -> Result<()> {
         ["test", rest @ ..] => test::run(rest),
         ["portable"] => portable::run(),
         ["browser"] => browser::run(),
+        ["soak", minutes] => soak::run(minutes),
         ["validation"] => validation::run(),
         ["bench"] => bench::run(),
         ["fuzz", minutes] => fuzz::run(minutes),

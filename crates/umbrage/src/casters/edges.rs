@@ -129,7 +129,9 @@ impl Edges {
         let sizes =
             [edges.len() as u64 * 16, planes.len() as u64 * 16, casters.positions.size(), casters.indices.size()];
         if let Some(&size) = sizes.iter().find(|size| **size > limit) {
-            return Err(Error::Size { what: "a buffer of edges, planes or vertices".into(), size, limit });
+            let what = "a buffer of edges, planes or vertices (techniques with maps need none; the limit is the \
+                        device's max_storage_buffer_binding_size)";
+            return Err(Error::Size { what: what.into(), size, limit });
         }
         let edges = gpu.buffer("edges", &edges, wgpu::BufferUsages::STORAGE);
         let planes = gpu.buffer("planes", &planes, wgpu::BufferUsages::STORAGE);

@@ -205,3 +205,19 @@ fn techniques_with_maps_shadow_posed_casters_on_the_smallest_devices() {
     }
     assert!(works > 10, "only {works} work");
 }
+
+/// Scenes whose edges are more than the device binds at once are refused by name; maps do them.
+#[test]
+fn casters_beyond_a_binding_are_refused_with_the_limit_and_the_remedy() {
+    let limits = wgpu::Limits { max_storage_buffer_binding_size: 1 << 14, ..Default::default() };
+    let (gpu, complaints) = plain(limits);
+    let scene = scene("primitives", 1.0);
+    for id in ["wedges", "volume"] {
+        let text = picture(&gpu, &scene, id, "").unwrap_err().to_string();
+        assert!(text.contains("max_storage_buffer_binding_size") && text.contains("16384"), "{id}: {text}");
+        assert!(text.contains("techniques with maps need none"), "{id}: {text}");
+    }
+    picture(&gpu, &scene, "pcf", "").unwrap();
+    let complaints = complaints.lock().unwrap();
+    assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+}
