@@ -99,6 +99,6 @@ fn report(found: &[String]) -> Result<()> {
     found.iter().for_each(|line| println!("{line}"));
     let wrong = found.iter().filter(|line| line.starts_with("error") || line.starts_with("warning")).count();
     ensure!(wrong == 0, "the browser has {wrong} complaints about shaders");
-    ensure!(found.iter().any(|line| line.starts_with("checked")), "the page did not come to its end");
+    ensure!(found.iter().any(|line| line.starts_with("checked")), "the page did not reach its end");
     Ok(())
 }

@@ -17,7 +17,7 @@ pub fn without_device_chooser() {
     }
     let mut line = std::env::args_os();
     if let (Ok(program), Some(name)) = (std::env::current_exe(), line.next()) {
-        // It comes back only where it failed; then the command goes on as it is.
+        // This returns only where it failed; then the command continues as it is.
         let _ = std::process::Command::new(program).arg0(name).args(line).env(OFF, "1").exec();
     }
 }

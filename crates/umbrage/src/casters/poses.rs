@@ -5,48 +5,18 @@
 mod device;
 
 use super::vertices::MeshPart;
-use crate::{error::Error, gpu::Gpu, passes::Passes, shader::Shader, shader::Shared, shader::shader_struct};
-use device::Device;
+use crate::{error::Error, gpu::Gpu, passes::Passes, shader::Shared};
+pub(crate) use device::SHADERS;
 pub(super) use device::planes_group;
+use device::{Device, GROUP, JointRows, PosedMesh};
 use std::sync::{Arc, OnceLock};
 use umbrage_core::adjacency::Adjacency;
 use umbrage_core::glam::{DAffine3, DVec3, Vec4};
 use umbrage_core::rig::JointBoxes;
 use umbrage_core::{Bounds, Mesh, Scene};
 
-/// Bends vertices; then makes planes of the triangles between them.
-pub(crate) const SHADERS: &[Shader] = &[
-    Shader::new("poses", include_str!("pose_vertices.wgsl")).with_layouts(&[JointRows::LAYOUT]),
-    Shader::new("planes of poses", include_str!("pose_planes.wgsl")),
-];
-
 /// What the host has to agree on with `poses.wgsl`.
 pub(super) const SHARED: Shared = Shared { module: "poses", layouts: &[PosedMesh::LAYOUT], constants: &[] };
-
-shader_struct! {
-    /// A mesh to bend, see `poses.wgsl`.
-    pub(crate) struct PosedMesh {
-        bound_vertex: u32,
-        vertex: u32,
-        vertex_count: u32,
-        first_start: u32,
-        first_joint: u32,
-        first_index: u32,
-        first_triangle: u32,
-        triangle_count: u32,
-        center: [f32; 3],
-        pad: u32,
-    }
-}
-
-shader_struct! {
-    /// What a joint does to the mesh as it was bound.
-    pub(crate) struct JointRows {
-        row0: [f32; 4],
-        row1: [f32; 4],
-        row2: [f32; 4],
-    }
-}
 
 /// The instances that have a pose.
 pub(super) struct Poses {
@@ -74,9 +44,6 @@ struct Posed {
     /// Made when the CPU asks for them.
     planes: OnceLock<Vec<Vec4>>,
 }
-
-/// Threads of a workgroup.
-const GROUP: u32 = 64;
 
 impl Poses {
     pub fn new(scene: &Scene) -> Self {

@@ -1,8 +1,41 @@
 //! Pipelines and buffers that bend meshes.
 
-use super::{JointRows, PosedMesh, SHADERS};
 use crate::fullscreen::{STORAGE, bind, layout};
-use crate::{gpu::Gpu, shader::Shader};
+use crate::{gpu::Gpu, shader::Shader, shader::shader_struct};
+
+/// Bends vertices; then makes planes of the triangles between them.
+pub(crate) const SHADERS: &[Shader] = &[
+    Shader::new("poses", include_str!("../pose_vertices.wgsl")).with_layouts(&[JointRows::LAYOUT]),
+    Shader::new("planes of poses", include_str!("../pose_planes.wgsl")),
+];
+
+shader_struct! {
+    /// A mesh to bend, see `poses.wgsl`.
+    pub(crate) struct PosedMesh {
+        bound_vertex: u32,
+        vertex: u32,
+        vertex_count: u32,
+        first_start: u32,
+        first_joint: u32,
+        first_index: u32,
+        first_triangle: u32,
+        triangle_count: u32,
+        center: [f32; 3],
+        pad: u32,
+    }
+}
+
+shader_struct! {
+    /// What a joint does to the mesh as it was bound.
+    pub(crate) struct JointRows {
+        row0: [f32; 4],
+        row1: [f32; 4],
+        row2: [f32; 4],
+    }
+}
+
+/// Threads of a workgroup.
+pub const GROUP: u32 = 64;
 
 /// What is on the GPU.
 pub(super) struct Device {
