@@ -226,8 +226,8 @@ impl Poses {
 }
 
 /// Who holds the vertices of all meshes with joints, as `pose_vertices.wgsl` has it: where the
-/// joints of each vertex start in the list itself, then pairs of a joint and its weight. And of each
-/// mesh the place of its first start.
+/// joints of each vertex start in the list itself, then pairs of a joint and its weight. And of
+/// each mesh the place of its first start.
 fn weights(scene: &Scene) -> (Vec<u32>, Vec<u32>) {
     let (mut ends, mut pairs) = (vec![0], Vec::new());
     let mut first_start = vec![0; scene.meshes.len()];
