@@ -171,3 +171,43 @@ fn pipeline(gpu: &Gpu) -> wgpu::RenderPipeline {
         cache: None,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The triangles' depths as a rasteriser makes them that snaps corners to `steps` a pixel.
+    fn picture(triangles: &[Triangle], steps: f64) -> Image<f32> {
+        let mut picture = Image::filled(SIZE, SIZE, 0.0);
+        for triangle in triangles {
+            let corners = triangle.corners.map(|c| {
+                let half = 0.5 * f64::from(SIZE);
+                let at = (c.truncate().truncate() / c.w * DVec2::new(half, -half) + half) * steps;
+                let ndc = ndc_of(at.round() / steps);
+                DVec4::new(ndc.x, ndc.y, c.z / c.w, 1.0)
+            });
+            let plane = Triangle { corners, ..*triangle }.plane();
+            for p in 0..CELL * CELL {
+                let (x, y) = (triangle.cell.0 + p % CELL, triangle.cell.1 + p / CELL);
+                let ndc = ndc_of(DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5));
+                picture[(x, y)] = plane.dot(ndc.extend(1.0)) as f32;
+            }
+        }
+        picture
+    }
+
+    fn most(steps: f64) -> f64 {
+        let triangles: Vec<Triangle> = (0..16).map(Triangle::number).collect();
+        let picture = picture(&triangles, steps);
+        triangles.iter().map(|t| t.shift_in(&picture)).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn what_is_measured_is_how_far_corners_are_snapped() {
+        // Half a step in each direction at most; corners behind the eye take that farther.
+        let (coarse, fine) = (most(16.0), most(256.0));
+        assert!((1.0 / 32.0..=1.0 / 8.0).contains(&coarse), "{coarse} pixels for four binary digits");
+        assert!((1.0 / 512.0..=1.0 / 128.0).contains(&fine), "{fine} pixels for eight binary digits");
+        assert!(most(1e9) < 1e-5, "{} pixels for none", most(1e9));
+    }
+}

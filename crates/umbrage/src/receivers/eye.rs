@@ -14,8 +14,8 @@ shader_struct! {
         background_depth: f32,
         /// The largest |x| + |y| + |z| of `eye_from_ndc` in the picture, before the division by w.
         reach: f32,
-        /// How far the rasteriser that made the depth buffer may shift surfaces, in normalised device
-        /// coordinates.
+        /// How far the rasteriser that made the depth buffer may shift surfaces, in normalised
+        /// device coordinates.
         snapped: [f32; 2],
         /// Not read.
         pad: [f32; 2],

@@ -16,6 +16,7 @@ mod own_maps;
 mod pcf_blur;
 mod penumbra;
 mod poses;
+mod rasterisers;
 mod robust;
 mod settings;
 mod shared_references;

@@ -57,7 +57,8 @@ fn height_over_horizon(subject: &Subject<'_>, w: DVec4, column: &Frustum, scene:
 /// How much less heights over the ground have to be.
 const MUCH: f64 = 64.0;
 
-/// The row of depth for heights from some plane, and how high the highest caster is in that measure.
+/// The row of depth for heights from some plane, and how high the highest caster is in that
+/// measure.
 fn depth_of(height: DVec4, w: DVec4, receivers: &[DVec3], casters: &[DVec3]) -> Option<(DVec4, f64)> {
     let over_horizon = |p: &DVec3| height.dot(p.extend(1.0)) / w.dot(p.extend(1.0));
     let range = |points: &[DVec3], [low, high]: [f64; 2]| {
