@@ -54,7 +54,11 @@ impl FlatMap {
         let crop = Crop::to(rect(turn)?, fit);
         let crop = DMat3::from_cols(DVec3::X * crop.scale.x, DVec3::Y * crop.scale.y, crop.moved.extend(1.0));
         let bend = DMat3::from_cols(right, up, horizon).transpose();
-        let map = Self { clip_from_ray: crop * DMat3::from_mat2(turn) * bend };
+        let clip_from_ray = crop * DMat3::from_mat2(turn) * bend;
+        // Where the middle ray is beyond the horizon the picture is mirrored, and would show the
+        // other faces of all casters.
+        let mirror = DVec3::new(if clip_from_ray.determinant() < 0.0 { -1.0 } else { 1.0 }, 1.0, 1.0);
+        let map = Self { clip_from_ray: DMat3::from_diagonal(mirror) * clip_from_ray };
         map.clip_from_ray.is_finite().then_some(map)
     }
 

@@ -120,6 +120,9 @@ fn what_is_seen_is_covered_and_depth_falls_away_from_the_light() {
             for warp in WARPS {
                 let mut views = Vec::new();
                 let omni = fit_warped(&light, &camera, &scene, &warp, &FIT, &mut views);
+                for view in &views {
+                    assert!(!is_mirrored(view), "{round} {light:?} {warp:?}: mirrored");
+                }
                 for &p in &points {
                     let at = covering(&views, omni, &light, p);
                     let name = format!("{round} {light:?} {warp:?} {p}");
@@ -133,6 +136,13 @@ fn what_is_seen_is_covered_and_depth_falls_away_from_the_light() {
         }
     }
     assert!(checked > 10_000, "{checked}");
+}
+
+/// Whether a triangle that turns one way as the light sees it turns the other way in the map.
+fn is_mirrored(view: &LightView) -> bool {
+    let [x, y, w] = [0, 1, 3].map(|i| view.clip_from_world.row(i).truncate());
+    let ahead = if w == DVec3::ZERO || view.is_warped() { -view.clip_from_world.row(2).truncate() } else { w };
+    x.cross(y).dot(ahead) > 0.0
 }
 
 /// Every point of a caster between `p` and the light is at the same place of the map, farther in
