@@ -17,6 +17,23 @@ struct ShadingLight {
 @group(2) @binding(0) var<uniform> light: ShadingLight;
 @group(2) @binding(1) var visibility_texture: texture_2d<f32>;
 
+// Both are chosen without branches: Mesa 22's software driver compiles a shader in which branches
+// meet again once more for every frame, and keeps all of it.
+
+// With the distance; 1 for parallel light.
+fn falloff(distance: f32) -> f32 {
+    let a = light.attenuation;
+    let share = min(1.0, 1.0 / max(a.x + distance * (a.y + distance * a.z), 1e-20));
+    let within = select(0.0, share, distance <= light.range);
+    return select(1.0, within, light.center.w > 0.0);
+}
+
+// Of a spot's cone that a way from the light is in; 1 for other lights.
+fn spot_share(way: vec3f) -> f32 {
+    let t = saturate((dot(way, light.direction) - light.outer_cos) / max(light.inner_cos - light.outer_cos, 1e-6));
+    return select(1.0, t * t * (3.0 - 2.0 * t), light.outer_cos > -1.5);
+}
+
 @fragment
 fn shade(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(at.xy);
@@ -32,16 +49,7 @@ fn shade(@builtin(position) at: vec4f) -> @location(0) vec4f {
     if dot(geometric, l) <= 0.0 {
         return vec4f(0.0);
     }
-    var attenuation = 1.0;
-    if light.center.w > 0.0 {
-        let a = light.attenuation;
-        attenuation = min(1.0, 1.0 / max(a.x + distance * (a.y + distance * a.z), 1e-20));
-        attenuation *= select(0.0, 1.0, distance <= light.range);
-    }
-    if light.outer_cos > -1.5 {
-        let t = saturate((dot(-l, light.direction) - light.outer_cos) / max(light.inner_cos - light.outer_cos, 1e-6));
-        attenuation *= t * t * (3.0 - 2.0 * t);
-    }
+    let attenuation = falloff(distance) * spot_share(-l);
     // No shadow falls on what does not receive.
     let shading = textureLoad(surface_shading, pixel, 0);
     let visibility = select(1.0, textureLoad(visibility_texture, pixel, 0).x, shading.w > 0.0);

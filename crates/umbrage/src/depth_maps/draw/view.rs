@@ -51,9 +51,9 @@ impl MapView {
     }
 }
 
-/// Texels from the map's middle that a rasteriser surely holds: 32 bits with up to eight behind the
-/// point, and two to spare.
-const FARTHEST_TEXEL: f64 = (1 << 21) as f64;
+/// Texels from the map's middle that a rasteriser surely holds: 32 bits with four behind the point,
+/// and two to spare.
+const FARTHEST_TEXEL: f64 = (1 << 25) as f64;
 
 /// The least |w| of a corner as a share of its |x| or |y|. A corner level with the light has w = 0,
 /// and stands infinitely far away in the map.
