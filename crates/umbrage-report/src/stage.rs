@@ -72,19 +72,6 @@ impl<'a> Stage<'a> {
         &self.gpu
     }
 
-    /// Takes a new device where the adapter is a software one: that of Mesa keeps about a megabyte
-    /// of every frame for as long as its device lives. No actor may be left.
-    pub(crate) fn renew(&mut self) {
-        self.renderer = None;
-        let adapter = self.gpu.adapter();
-        if adapter.kind == "software"
-            && let Ok(gpu) = Gpu::request(Some(&adapter.name))
-            && gpu.adapter() == adapter
-        {
-            self.gpu = gpu;
-        }
-    }
-
     fn renderer(&mut self) -> Result<&mut Renderer, Error> {
         let renderer = match self.renderer.take() {
             Some(renderer) => renderer,

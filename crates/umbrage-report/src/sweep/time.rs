@@ -109,7 +109,6 @@ impl<'a> Timing<'a> {
         let timed = self.waiting.drain(..).map(|(number, runner)| (number, runner.timed(clock, floor_ms)));
         self.timed.extend(timed);
         self.held = 0;
-        stage.renew();
         Ok(())
     }
 }
