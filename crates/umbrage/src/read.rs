@@ -1,7 +1,7 @@
 //! Pictures back from the GPU. For files and tests; waits for the device, which browsers do not
 //! allow: there, [`later`] has the same as futures.
 //!
-//! All of them give [`Error::DeviceLost`] and [`Error::Driver`].
+//! All of them give [`crate::Error::DeviceLost`] and [`crate::Error::Driver`].
 
 pub mod later;
 
@@ -50,7 +50,7 @@ mod now {
         /// The values, read back: for files and tests, since it waits for the GPU.
         ///
         /// # Errors
-        /// [`Error::DeviceLost`] and [`Error::Driver`].
+        /// [`crate::Error::DeviceLost`] and [`crate::Error::Driver`].
         pub fn read(&self, gpu: &Gpu) -> Result<Image<f32>, Error> {
             one_channel(gpu, &self.texture, 0)
         }
@@ -60,7 +60,7 @@ mod now {
         /// The values, read back: for files and tests, since it waits for the GPU.
         ///
         /// # Errors
-        /// [`Error::DeviceLost`] and [`Error::Driver`].
+        /// [`crate::Error::DeviceLost`] and [`crate::Error::Driver`].
         pub fn read(&self, gpu: &Gpu) -> Result<Image<[f32; 3]>, Error> {
             half_colors(gpu, &self.texture)
         }
