@@ -19,6 +19,7 @@ const FOLDER: &str = "target/drivers";
 
 /// The Debian package that holds a software Vulkan driver which shares no code with Mesa's.
 const PACKAGE: &str = "chromium-common";
+const SWIFTSHADER_NAME: &str = "swiftshader";
 const SWIFTSHADER: &str = "usr/lib/chromium/libvk_swiftshader.so";
 
 /// How much less of the interior may be right than on the first driver, per cent.
@@ -63,7 +64,7 @@ pub fn run(arguments: &[&str]) -> Result<()> {
     setup::run(Profile::Dev)?;
     let mut drivers = vec![Driver { name: "default".into(), description: None }];
     match swiftshader()? {
-        Some(file) => drivers.push(Driver { name: "swiftshader".into(), description: Some(file) }),
+        Some(file) => drivers.push(Driver { name: SWIFTSHADER_NAME.into(), description: Some(file) }),
         None => println!("SwiftShader was not run: it is unpacked from a package of Debian, {PACKAGE}"),
     }
     for argument in arguments.iter().filter(|a| **a != "--core") {
@@ -150,6 +151,9 @@ impl Driver {
         let report: Value =
             serde_json::from_str(&shell::output(command)?).context("`compare --json` printed no JSON")?;
         let adapter = report["made"]["adapter"]["name"].as_str().unwrap_or("?").to_string();
+        if self.name == SWIFTSHADER_NAME && !adapter.contains("SwiftShader") {
+            bail!("SwiftShader was asked for, yet {adapter} was measured");
+        }
         let cells = cells(&report);
         if cells.is_empty() {
             bail!("{} ({adapter}) gave no result", self.name);
@@ -200,7 +204,7 @@ impl Results {
                     format!("{value:.2} % of the interior is right, there {expected:.2} %")
                 }
                 (Ok(_), Some(Err(reason))) => reason.clone(),
-                (Err(_), Some(_)) => continue,
+                (Err(reason), Some(_)) => format!("failed on {}, too: {reason}", first.name),
             };
             wrong += 1;
             println!("  {} light {}: {}: {text}", cell.0, cell.1, cell.2);

@@ -76,7 +76,7 @@ pub fn run() -> Result<()> {
         println!("{id}: {count} times, since {}", KNOWN[known].reason);
     }
     ensure!(unknown.is_empty(), "the validation layer reports:\n{}", unknown.join("\n"));
-    println!("the validation layer reports nothing else");
+    println!("the validation layer reports no other message");
     Ok(())
 }
 

@@ -1,4 +1,4 @@
-//! What fails in one technique ends its own cell and nothing else. Needs a graphics adapter. The
+//! What fails in one technique ends only its own cell. Needs a graphics adapter. The
 //! techniques that fail are those of a host, added to the registry.
 
 use umbrage::{

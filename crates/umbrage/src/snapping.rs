@@ -33,7 +33,9 @@ const NEAR: f64 = 0.5;
 pub(crate) async fn measured(gpu: &Gpu) -> Result<f32, Error> {
     let triangles: Vec<Triangle> = (0..(SIZE / CELL).pow(2)).map(Triangle::number).collect();
     let depth = later::one_channel(gpu, &draw(gpu, &triangles), 0).await?;
-    let most = triangles.iter().map(|t| t.shift_in(&depth)).fold(0.0, f64::max);
+    let shifts: Option<Vec<f64>> = triangles.iter().map(|t| t.shift_in(&depth)).collect();
+    let missing = || Error::Driver("triangles of known depth were not drawn".into());
+    let most = shifts.ok_or_else(missing)?.into_iter().fold(0.0, f64::max);
     Ok((TO_SPARE * most).min(1.0) as f32)
 }
 
@@ -82,8 +84,9 @@ impl Triangle {
         DMat3::from_cols(x, y, w).inverse() * z
     }
 
-    /// How far its depths in a picture are off, pixels across and down together.
-    fn shift_in(&self, picture: &Image<f32>) -> f64 {
+    /// How far its depths in a picture are off, pixels across and down together; `None` where the
+    /// picture shows nothing of it.
+    fn shift_in(&self, picture: &Image<f32>) -> Option<f64> {
         let plane = self.plane();
         let pixels = (0..CELL * CELL).map(|p| (self.cell.0 + p % CELL, self.cell.1 + p / CELL));
         let off = pixels.filter_map(|(x, y)| {
@@ -92,7 +95,7 @@ impl Triangle {
             (shown > 0.0).then(|| (shown - plane.dot(ndc.extend(1.0))).abs())
         });
         let per_pixel = plane.truncate().abs().element_sum() * 2.0 / f64::from(SIZE);
-        off.fold(0.0, f64::max) / per_pixel
+        off.reduce(f64::max).map(|most| most / per_pixel)
     }
 }
 
@@ -199,7 +202,7 @@ mod tests {
     fn most(steps: f64) -> f64 {
         let triangles: Vec<Triangle> = (0..16).map(Triangle::number).collect();
         let picture = picture(&triangles, steps);
-        triangles.iter().map(|t| t.shift_in(&picture)).fold(0.0, f64::max)
+        triangles.iter().map(|t| t.shift_in(&picture).unwrap()).fold(0.0, f64::max)
     }
 
     #[test]
@@ -209,5 +212,10 @@ mod tests {
         assert!((1.0 / 32.0..=1.0 / 8.0).contains(&coarse), "{coarse} pixels for four binary digits");
         assert!((1.0 / 512.0..=1.0 / 128.0).contains(&fine), "{fine} pixels for eight binary digits");
         assert!(most(1e9) < 1e-5, "{} pixels for none", most(1e9));
+    }
+
+    #[test]
+    fn what_was_not_drawn_is_not_taken_for_exact() {
+        assert_eq!(Triangle::number(0).shift_in(&Image::filled(SIZE, SIZE, 0.0)), None);
     }
 }

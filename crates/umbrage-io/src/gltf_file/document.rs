@@ -16,7 +16,7 @@ const READ: [&str; 5] = [
     "KHR_texture_transform",
 ];
 
-/// Extensions that change how a surface shines and nothing else: they are left out without a word.
+/// Extensions that change only how a surface shines: they are left out, and no note says so.
 const SHINE: [&str; 9] = [
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
