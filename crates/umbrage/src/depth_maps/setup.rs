@@ -123,6 +123,8 @@ choices! {
         Square5 = "5",
         /// 7×7 bilinear compares.
         Square7 = "7",
+        /// 4×4 compares, weighted by a cubic B-spline.
+        Bicubic = "bicubic",
         /// A Vogel disc.
         Disc = "disc",
     }

@@ -17,7 +17,7 @@ settings! {
         #[flatten] cover: Cover,
         #[flatten] storage: Storage,
         /// Which comparisons are averaged: a square of 3×3, 5×5 or 7×7 bilinear ones, the 2×2
-        /// texels of one hardware comparison, or a Vogel disc.
+        /// texels of one hardware comparison, 4×4 texels by a bicubic B-spline, or a Vogel disc.
         kernel: Kernel = Kernel::Square3,
         /// Comparisons of the disc.
         taps: u32 = 16, in 1..=1024,
@@ -73,6 +73,7 @@ impl Filter for Pcf {
             Kernel::Square3 => 3,
             Kernel::Square5 => 5,
             Kernel::Square7 => 7,
+            Kernel::Bicubic => 4,
             Kernel::Disc => 0,
         };
         let reach = if side == 0 { self.radius + 1.0 } else { 0.5 * f64::from(side) + 0.5 };
