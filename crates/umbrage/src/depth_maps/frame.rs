@@ -2,6 +2,7 @@
 //! and to the look-up.
 
 use super::layers::Layers;
+use crate::passes::Passes;
 use umbrage_core::light_view::{FitScene, LightView};
 
 /// A light's maps in this frame.
@@ -31,6 +32,8 @@ pub struct MapFrame {
     pub is_linear: bool,
     /// The depth maps that are looked up, once there are some.
     pub texture: Option<wgpu::Texture>,
+    /// By layer a matrix from the casters' space to clip space, where views are fitted on the GPU.
+    pub(crate) matrices: Option<wgpu::Buffer>,
     /// By layer: a number that changes whenever the layer is drawn.
     pub versions: Vec<u64>,
 }
@@ -39,6 +42,14 @@ impl MapFrame {
     /// True where views are from a point.
     pub fn is_from_a_point(&self) -> bool {
         self.views.first().is_some_and(LightView::is_perspective)
+    }
+
+    /// Replaces the matrix that a map's view in `uniform` starts with, where it was made on the GPU.
+    pub(super) fn take_matrix(&self, passes: &mut Passes<'_>, layer: u32, uniform: &wgpu::Buffer) {
+        const BYTES: u64 = size_of::<[[f32; 4]; 4]>() as u64;
+        if let Some(matrices) = &self.matrices {
+            passes.encoder().copy_buffer_to_buffer(matrices, u64::from(layer) * BYTES, uniform, 0, BYTES);
+        }
     }
 
     /// Changes whenever this layer of the maps does.

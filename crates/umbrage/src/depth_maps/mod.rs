@@ -15,7 +15,7 @@ mod technique;
 mod texels;
 
 use crate::shader::{Shader, Shared};
-pub use draw::CasterPass;
+pub use draw::{CasterPass, EdgeDraw, EdgePass, EdgeTarget};
 pub use frame::MapFrame;
 
 pub use layers::{LAYER_NAMES, Layers, MOST_LAYERS};

@@ -111,6 +111,8 @@ impl MapTechnique {
 impl Technique for MapTechnique {
     fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
         self.fit.prepare(view, self.setup.depth == Depth::Linear, &mut self.frame);
+        let fitter = self.fitter.as_ref().filter(|_| matches!(self.frame.layers, Layers::Splits(_)));
+        self.frame.matrices = fitter.map(|fitter| fitter.matrices().clone());
         self.draw.prepare(gpu, view, &mut self.frame);
         if let Some(stage) = &mut self.stage {
             stage.prepare(gpu, view, &self.frame)?;
@@ -125,11 +127,10 @@ impl Technique for MapTechnique {
     fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
         visibility.check(view.receivers)?;
         self.lookup.upload(passes);
-        let fitter = self.fitter.as_ref().filter(|_| matches!(self.frame.layers, Layers::Splits(_)));
-        if let Some(fitter) = fitter {
+        if let Some(fitter) = self.fitter.as_ref().filter(|_| self.frame.matrices.is_some()) {
             fitter.record(passes, view.receivers);
         }
-        self.draws = self.draw.record(passes, view.casters, &self.frame, fitter.map(SplitFitter::matrices));
+        self.draws = self.draw.record(passes, view.casters, &self.frame);
         let mut more = None;
         if let Some(stage) = &mut self.stage {
             self.draws += stage.record(passes, &self.frame, view.casters);

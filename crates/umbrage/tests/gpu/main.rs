@@ -4,6 +4,7 @@ mod cache;
 mod cascaded;
 mod common;
 mod dark;
+mod edges_in_maps;
 mod filters;
 mod golden;
 mod host;

@@ -163,7 +163,7 @@ impl Stage for OwnStage {
 
     fn record(&mut self, passes: &mut Passes<'_>, frame: &MapFrame, casters: &Casters) -> u32 {
         let Some(made) = &self.made else { return 0 };
-        self.pass.upload(passes);
+        self.pass.upload(passes, frame);
         let mut draws = 0;
         for (i, view) in frame.views.iter().enumerate() {
             let [color, depth] = &made.layers[view.layer as usize];

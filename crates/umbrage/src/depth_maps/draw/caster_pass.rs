@@ -91,10 +91,11 @@ impl CasterPass {
     }
 
     /// Sends what was found to the GPU, before the first [`CasterPass::record`] of a frame.
-    pub fn upload(&self, passes: &mut Passes<'_>) {
+    pub fn upload(&self, passes: &mut Passes<'_>, frame: &MapFrame) {
         self.numbers.upload(passes);
-        for (view, (buffer, _)) in self.views.iter().zip(&self.uniforms) {
+        for ((view, (buffer, _)), layer) in self.views.iter().zip(&self.uniforms).zip(&frame.views) {
             passes.upload(buffer, bytemuck::bytes_of(view));
+            frame.take_matrix(passes, layer.layer, buffer);
         }
     }
 

@@ -109,15 +109,8 @@ impl Drawer {
         }
     }
 
-    /// Renders the maps; returns the number of draws. `matrices` has one for each layer from the
-    /// casters' space to clip space, where these were made on the GPU.
-    pub fn record(
-        &mut self,
-        passes: &mut Passes<'_>,
-        casters: &Casters,
-        frame: &MapFrame,
-        matrices: Option<&wgpu::Buffer>,
-    ) -> u32 {
+    /// Renders the maps; returns the number of draws.
+    pub fn record(&mut self, passes: &mut Passes<'_>, casters: &Casters, frame: &MapFrame) -> u32 {
         self.recorded = true;
         let Some(textures) = &self.textures else { return 0 };
         let (mut draws, mut triangles) = (0, 0);
@@ -132,10 +125,7 @@ impl Drawer {
             let layer = &self.layers[i];
             let uniform = &textures.uniforms[i].0;
             passes.upload(uniform, bytemuck::bytes_of(&layer.uniform));
-            if let Some(matrices) = matrices {
-                let from = u64::from(view.layer) * MapView::MATRIX;
-                passes.encoder().copy_buffer_to_buffer(matrices, from, uniform, 0, MapView::MATRIX);
-            }
+            frame.take_matrix(passes, view.layer, uniform);
             let rounds = self.pipelines.record(passes, casters, (numbers, layer), textures, i, kind(frame));
             draws += rounds * layer.list.draws() + layer.rest.draws();
             triangles += u64::from(rounds) * layer.list.triangles(casters) + layer.rest.triangles(casters);

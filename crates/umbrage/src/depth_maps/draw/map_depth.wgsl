@@ -1,20 +1,5 @@
-// needs: casters, materials, map_storage
+// needs: casters, materials, map_view
 // Renders casters into a depth map seen from the light.
-
-struct MapView {
-    clip_from_world: mat4x4f,
-    // Of a paraboloid: scale and offset from its plane to clip space, and from texels to the plane.
-    clip_from_plane: vec4f,
-    plane_from_texel: vec4f,
-    // How much nearer stored depths may be and still count as the same: relative, and absolute.
-    same: vec2f,
-    // Depth that linear maps store as 0.
-    farthest: f32,
-    // Distance of depth 1, metres.
-    near: f32,
-    // Least |w| of a corner for each unit of |x| or |y|.
-    least_w: vec4f,
-}
 
 @group(0) @binding(0) var<uniform> map_view: MapView;
 
@@ -29,7 +14,7 @@ struct Masked {
 // light too, and can't hold one that is infinitely far away.
 fn map_position(instance: u32, position: vec3f) -> vec4f {
     var at = map_view.clip_from_world * vec4f(world_from_mesh(instance, position), 1.0);
-    let least = map_view.least_w.x * max(abs(at.x), abs(at.y));
+    let least = map_view.least_w * max(abs(at.x), abs(at.y));
     if abs(at.w) < least {
         at.w = select(-least, least, at.w > 0.0);
     }

@@ -4,6 +4,7 @@
 mod cache;
 mod caster_pass;
 mod drawer;
+mod edge_pass;
 mod layer;
 mod layouts;
 mod movers;
@@ -14,5 +15,6 @@ mod view;
 
 pub use caster_pass::CasterPass;
 pub(super) use drawer::Drawer;
+pub use edge_pass::{EdgeDraw, EdgePass, EdgeTarget};
 pub(super) use pipelines::SHADERS;
 pub(super) use view::SHARED;

@@ -6,7 +6,7 @@ use umbrage_core::glam::{DMat4, DVec2, DVec3};
 use umbrage_core::light_view::{FARTHEST, LightView};
 
 shader_struct! {
-    /// What the shaders that draw a map need, see `map_depth.wgsl`.
+    /// What the shaders that draw a map need, see `map_view.wgsl`.
     pub(crate) struct MapView {
         clip_from_world: [[f32; 4]; 4],
         clip_from_plane: [f32; 4],
@@ -14,18 +14,18 @@ shader_struct! {
         same: [f32; 2],
         farthest: f32,
         near: f32,
-        least_w: [f32; 4],
+        least_w: f32,
+        size: f32,
+        pad_a: f32,
+        pad_b: f32,
     }
 }
 
-/// What the host has to agree on with `map_depth.wgsl`.
+/// What the host has to agree on with `map_view.wgsl`.
 pub(in crate::depth_maps) const SHARED: Shared =
-    Shared { module: "map_depth", layouts: &[MapView::LAYOUT], constants: &[] };
+    Shared { module: "map_view", layouts: &[MapView::LAYOUT], constants: &[] };
 
 impl MapView {
-    /// Bytes of the matrix that it starts with.
-    pub const MATRIX: u64 = size_of::<[[f32; 4]; 4]>() as u64;
-
     /// For casters relative to `origin`.
     pub(super) fn new(view: &LightView, origin: DVec3, linear: bool) -> Self {
         let plane = view.paraboloid.as_ref().map(|p| (p, InTexels::of(view.size, p)));
@@ -46,7 +46,9 @@ impl MapView {
             },
             farthest: FARTHEST as f32,
             near: near(view) as f32,
-            least_w: [least_w(view), 0.0, 0.0, 0.0],
+            least_w: least_w(view),
+            size: view.size as f32,
+            ..Self::default()
         }
     }
 }

@@ -1,0 +1,285 @@
+//! Edges of casters drawn into a map of a stage's own, by shaders of its own.
+
+use super::layouts::{view_layout, view_uniform};
+use super::view::MapView;
+use crate::casters::{Casters, Edges, Places};
+use crate::depth_maps::frame::MapFrame;
+use crate::depth_maps::layers::Layers;
+use crate::silhouettes::{Extrude, Part, Silhouettes, Style, Throw};
+use crate::{error::Error, gpu::Gpu, passes::Passes, shader::Shader};
+use umbrage_core::glam::{DMat4, DVec4};
+use umbrage_core::light_view::{LightView, Omni};
+use umbrage_core::silhouette::Rule;
+
+/// Draws the edges that bound the casters' shadows into layers of maps: points and fins on
+/// silhouettes. Compute finds them once for all layers of a light; the CPU touches no edge.
+///
+/// The shader needs the module `map_edges`. Its vertex shaders take vertex and instance number and
+/// ask `contour_edge` for the edge that they belong to: its ends in world space, relative to
+/// [`Casters::origin`], and how many surfaces end there. `layer_edge` clips it to the layer, also
+/// where that is a paraboloid or warped, and says **which side is outwards**, away from the shadow;
+/// `outward_at` and `along_at` say so in metres. Each edge has four corners of a quad, which
+/// `quad_corner` puts around it. Neighbours need not know of each other: where the quad reaches
+/// beyond the ends as far as outwards, those of two edges that meet cover the corner between them.
+///
+/// What has edges:
+/// - Any opaque mesh, closed or open, wound or mirrored as it may be, posed as the GPU has bent it.
+///   An open mesh ends at its border, and an edge where it folds is there once, counting 2.
+/// - A mesh with an alpha mask has none, since its outline is that of the mask. What it shadows is
+///   in the map of depths alone.
+/// - A caster around the light has those edges that the light sees from there; what is behind the
+///   light is cut off.
+/// - Edges within or behind another caster, and those that are no step of depth, are there, too. A
+///   fragment shader that has the map of depths tells.
+pub struct EdgePass {
+    module: wgpu::ShaderModule,
+    draws: Vec<EdgeDraw>,
+    constants: Vec<(&'static str, f64)>,
+    pipeline_layout: wgpu::PipelineLayout,
+    /// For each kind of layer that came up, one for each of `draws`.
+    pipelines: Vec<(Kind, Vec<wgpu::RenderPipeline>)>,
+    silhouettes: Silhouettes,
+    view_layout: wgpu::BindGroupLayout,
+    /// By number of the view in the frame.
+    uniforms: Vec<(wgpu::Buffer, wgpu::BindGroup)>,
+    views: Vec<MapView>,
+    kind: Kind,
+    throws: Vec<Throw>,
+    found: Vec<u32>,
+    known: Places,
+    /// What the list of casters was made for.
+    made_for: Option<Key>,
+}
+
+/// One way to draw all edges.
+#[derive(Clone, Debug)]
+pub struct EdgeDraw {
+    /// The vertex shader.
+    pub vertex: &'static str,
+    /// The fragment shader; without one depth alone is written.
+    pub fragment: Option<&'static str>,
+    /// Formats of colours, and how they are blended.
+    pub targets: Vec<Option<wgpu::ColorTargetState>>,
+    /// The depth test. Depth in views of light is reversed: 1 is nearest.
+    pub depth_stencil: Option<wgpu::DepthStencilState>,
+}
+
+/// What edges are drawn into.
+pub struct EdgeTarget<'a> {
+    /// Of the pass, for its time.
+    pub label: &'a str,
+    /// As in a render pass.
+    pub colors: &'a [Option<wgpu::RenderPassColorAttachment<'a>>],
+    /// The same.
+    pub depth: Option<wgpu::RenderPassDepthStencilAttachment<'a>>,
+}
+
+/// What pipelines are made for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Kind {
+    paraboloid: bool,
+    /// Maps store linear depths.
+    linear: bool,
+}
+
+/// The casters, when they last moved, the light, and the views that chose among them.
+#[derive(PartialEq)]
+struct Key {
+    casters: wgpu::Buffer,
+    moves: u64,
+    light: DVec4,
+    seen_by: Vec<LightView>,
+}
+
+impl EdgePass {
+    /// `own` is the layout of what the shaders bind as group 3; `constants` override the shader's.
+    /// A technique with this needs [`EdgePass::STORAGE_BUFFERS`].
+    pub fn new(
+        gpu: &Gpu,
+        shader: &Shader,
+        own: Option<&wgpu::BindGroupLayout>,
+        constants: &[(&'static str, f64)],
+        draws: Vec<EdgeDraw>,
+    ) -> Self {
+        let silhouettes = Silhouettes::new(gpu, Extrude::Compute);
+        let view_layout = view_layout(gpu);
+        let of_edges = Edges::draw_layout(gpu);
+        let groups = [Some(silhouettes.layout()), Some(&of_edges), Some(&view_layout), own];
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(shader.name),
+            bind_group_layouts: &groups[..if own.is_some() { 4 } else { 3 }],
+            ..Default::default()
+        });
+        Self {
+            module: shader.module(gpu),
+            draws,
+            constants: constants.to_vec(),
+            pipeline_layout,
+            pipelines: Vec::new(),
+            silhouettes,
+            view_layout,
+            uniforms: Vec::new(),
+            views: Vec::new(),
+            kind: Kind::default(),
+            throws: Vec::new(),
+            found: Vec::new(),
+            known: Places::default(),
+            made_for: None,
+        }
+    }
+
+    /// Storage buffers that a shader stage has to have room for.
+    pub const STORAGE_BUFFERS: u32 = 7;
+
+    /// Chooses the casters that any of `seen_by` sees (mostly the frame's own views), for their
+    /// edges as seen from `light` (mostly [`umbrage_core::LightShape::center`]: a place, or with w
+    /// = 0 a direction to it), drawn into the layers of `frame`. Costs nothing to speak of while
+    /// all that is the same.
+    ///
+    /// # Errors
+    /// [`Error::Size`] where the edges do not fit the adapter's limits.
+    pub fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        casters: &Casters,
+        light: DVec4,
+        seen_by: &[LightView],
+        frame: &MapFrame,
+    ) -> Result<(), Error> {
+        self.views.clear();
+        self.views.extend(frame.views.iter().map(|view| MapView::new(view, casters.origin(), frame.is_linear)));
+        let count = self.views.len();
+        self.uniforms.resize_with(self.uniforms.len().max(count), || view_uniform(gpu, &self.view_layout));
+        let paraboloid = frame.layers == Layers::Omni(Omni::DualParaboloid);
+        self.kind = Kind { paraboloid, linear: frame.is_linear };
+        if !self.pipelines.iter().any(|(kind, _)| *kind == self.kind) {
+            let made = self.draws.iter().map(|draw| self.pipeline(gpu, draw)).collect();
+            self.pipelines.push((self.kind, made));
+        }
+        let is_known = |key: &Key| {
+            (&key.casters, key.moves, key.light) == (&casters.instances, casters.moves().now(), light)
+                && key.seen_by == seen_by
+        };
+        if self.made_for.as_ref().is_some_and(is_known) {
+            return Ok(());
+        }
+        self.made_for = None;
+        self.choose(gpu, casters, light, seen_by)?;
+        let (buffer, moves) = (casters.instances.clone(), casters.moves().now());
+        self.made_for = Some(Key { casters: buffer, moves, light, seen_by: seen_by.to_vec() });
+        Ok(())
+    }
+
+    fn choose(&mut self, gpu: &Gpu, casters: &Casters, light: DVec4, seen_by: &[LightView]) -> Result<(), Error> {
+        let edges = casters.edges(gpu)?;
+        self.known.clear(casters.len());
+        self.found.clear();
+        for view in seen_by {
+            casters.casting().query(&view.frustum(), &mut self.found);
+        }
+        self.found.retain(|place| self.known.insert(*place));
+        self.found.sort_unstable();
+        let has_edges = |place: &&u32| {
+            let placed = &casters.placed()[**place as usize];
+            let has_some = !edges.of_mesh(placed.mesh).adjacency.edges.is_empty();
+            has_some && !placed.masked && placed.sides.is_some() && !placed.bounds.is_empty()
+        };
+        self.throws.clear();
+        self.throws.extend(self.found.iter().filter(has_edges).map(|place| throw(*place, light)));
+        let style = Style { weighted: true, quads: true };
+        self.silhouettes.prepare(gpu, casters, (&DMat4::IDENTITY, true), light, &self.throws, style)
+    }
+
+    /// Finds the edges, before the first [`EdgePass::record`] of a frame. A frame in which no layer
+    /// is drawn anew, see [`MapFrame::version`], needs neither.
+    pub fn find(&self, passes: &mut Passes<'_>, casters: &Casters, frame: &MapFrame) {
+        for ((view, (buffer, _)), layer) in self.views.iter().zip(&self.uniforms).zip(&frame.views) {
+            passes.upload(buffer, bytemuck::bytes_of(view));
+            frame.take_matrix(passes, layer.layer, buffer);
+        }
+        if let Some(edges) = casters.made_edges().filter(|_| !self.throws.is_empty()) {
+            self.silhouettes.record(passes, edges);
+        }
+    }
+
+    /// Draws all edges into the layer of view number `i` of the frame, by way number `draw` of
+    /// those that [`EdgePass::new`] was given, in a pass of its own, which clears in any case.
+    /// Returns the number of draws.
+    pub fn record(
+        &self,
+        passes: &mut Passes<'_>,
+        casters: &Casters,
+        (i, draw): (usize, usize),
+        own: Option<&wgpu::BindGroup>,
+        target: EdgeTarget<'_>,
+    ) -> u32 {
+        let mut pass = passes.render(target.label, target.colors, target.depth);
+        let pipelines = self.pipelines.iter().find(|(kind, _)| *kind == self.kind);
+        let pipeline = pipelines.and_then(|(_, pipelines)| pipelines.get(draw));
+        let uniform = self.uniforms.get(i).filter(|_| i < self.views.len());
+        let edges = casters.made_edges().filter(|_| !self.throws.is_empty());
+        let (Some(pipeline), Some((_, uniform)), Some(edges)) = (pipeline, uniform, edges) else { return 0 };
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(2, uniform, &[]);
+        if own.is_some() {
+            pass.set_bind_group(3, own, &[]);
+        }
+        self.silhouettes.draw(&mut pass, edges, Part::PassSides);
+        1
+    }
+
+    /// Edges that are looked at.
+    pub fn edges(&self) -> u64 {
+        if self.throws.is_empty() { 0 } else { self.silhouettes.looked_at().0 }
+    }
+
+    /// Bytes of GPU memory held; the edges themselves are the casters'.
+    pub fn bytes(&self) -> u64 {
+        self.silhouettes.bytes() + self.uniforms.iter().map(|(buffer, _)| buffer.size()).sum::<u64>()
+    }
+
+    fn pipeline(&self, gpu: &Gpu, draw: &EdgeDraw) -> wgpu::RenderPipeline {
+        let on = |switch: bool| if switch { 1.0 } else { 0.0 };
+        let own = [("PARABOLOID", on(self.kind.paraboloid)), ("LINEAR", on(self.kind.linear))];
+        let constants = [&self.constants[..], &own].concat();
+        let compilation_options = || wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(draw.vertex),
+            layout: Some(&self.pipeline_layout),
+            vertex: wgpu::VertexState {
+                module: &self.module,
+                entry_point: Some(draw.vertex),
+                compilation_options: compilation_options(),
+                buffers: &[],
+            },
+            primitive: Default::default(),
+            depth_stencil: draw.depth_stencil.clone(),
+            multisample: Default::default(),
+            fragment: draw.fragment.map(|entry| wgpu::FragmentState {
+                module: &self.module,
+                entry_point: Some(entry),
+                compilation_options: compilation_options(),
+                targets: &draw.targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+/// All of a caster's triangles count, whichever way they are wound.
+fn throw(place: u32, light: DVec4) -> Throw {
+    Throw {
+        place,
+        light,
+        rule: Rule::All,
+        is_body: false,
+        from_infinity: false,
+        z_fail: false,
+        light_cap: false,
+        dark_cap: false,
+        end: DVec4::ZERO,
+        reach: 0.0,
+        anchor: Default::default(),
+    }
+}
