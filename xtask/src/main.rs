@@ -30,12 +30,14 @@ cargo xtask COMMAND
   soak MINUTES
           draw with all techniques while everything changes: memory has to stay level, and pictures right
   validation
-          render with every technique under Vulkan's validation layer; what it reports has to be known
+          render with every technique, and run the library's tests, under Vulkan's validation layer; what it reports
+          has to be known
   bench   measure the standard set of scenes and write benchmarks/<date>-<machine>/
   fuzz MINUTES
           read damaged files of every kind; what fails is kept in out/fuzz/
   drivers [--core] [NAME=FILE ...]
-          compare all techniques on this machine's driver, SwiftShader, and drivers by their Vulkan ICD files
+          compare all techniques, and run the library's tests, on this machine's drivers, SwiftShader, a newer Mesa, and
+          drivers by their Vulkan ICD files; --core compares a few small scenes on one driver and SwiftShader
   tables za|fe|px
           measure the tables of three theses again: filtered and soft maps (za), splits (fe), wedges (px);
           write maps/, splits/ or loops/ there

@@ -47,7 +47,19 @@ const KNOWN: [Known; 3] = [
     },
 ];
 
-/// Renders each scene with each technique under the layer.
+/// A message of the layer.
+struct Message {
+    /// The technique and scene, or the test, that it came from.
+    by: String,
+    text: String,
+}
+
+/// Which of the known messages this is.
+fn known(text: &str) -> Option<usize> {
+    KNOWN.iter().position(|known| known.parts.iter().all(|part| text.contains(part)))
+}
+
+/// Renders each scene with each technique, and runs the tests on the device, under the layer.
 pub fn run() -> Result<()> {
     shell::build(Profile::Dev)?;
     fs::create_dir_all(FOLDER)?;
@@ -64,17 +76,24 @@ pub fn run() -> Result<()> {
     let mut unknown = Vec::new();
     for id in ids.iter().filter_map(|t| t["id"].as_str()).filter(|id| *id != "ray-traced") {
         for scene in SCENES {
-            for message in render(&folder, &layer, scene, id)? {
-                match KNOWN.iter().position(|known| known.parts.iter().all(|part| message.contains(part))) {
-                    Some(known) => *seen.entry((known, id)).or_insert(0) += 1,
-                    None => unknown.push(format!("{id}, {scene}: {message}")),
+            for text in render(&folder, &layer, scene, id)? {
+                match known(&text) {
+                    Some(known) => *seen.entry((known, id.to_string())).or_insert(0) += 1,
+                    None => unknown.push(Message { by: format!("{id}, {scene}"), text }),
                 }
             }
+        }
+    }
+    for message in tests(&folder, &layer)? {
+        match known(&message.text) {
+            Some(known) => *seen.entry((known, message.by)).or_insert(0) += 1,
+            None => unknown.push(message),
         }
     }
     for ((known, id), count) in seen {
         println!("{id}: {count} times, since {}", KNOWN[known].reason);
     }
+    let unknown: Vec<_> = unknown.iter().map(|message| format!("{}: {}", message.by, message.text)).collect();
     ensure!(unknown.is_empty(), "the validation layer reports:\n{}", unknown.join("\n"));
     println!("the validation layer reports no other message");
     Ok(())
@@ -85,14 +104,44 @@ fn render(folder: &Path, layer: &Path, scene: &str, id: &str) -> Result<Vec<Stri
     let picture = folder.join("picture.png");
     let line = ["render", scene, "--technique", id, "--size", "96x72", "-o"];
     let mut command = shell::tested_umbrage(&line)?;
-    command.arg(picture).env("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation");
-    command.env("VK_LAYER_PATH", layer).env("VK_LAYER_SETTINGS_PATH", folder).env("VK_LOADER_DEBUG", "layer");
+    insert(command.arg(picture), folder, layer);
     let output = command.output().context("can't run `umbrage`")?;
     let (said, errors) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     ensure!(output.status.success(), "`umbrage {}` failed: {}", line.join(" "), errors.lines().last().unwrap_or("?"));
     ensure!(errors.contains("Insert instance layer \"VK_LAYER_KHRONOS_validation\""), "the layer was not loaded");
-    let is_message = |line: &&str| line.contains("(ERROR") || line.contains("(WARN");
-    Ok(said.lines().filter(is_message).map(String::from).collect())
+    Ok(said.lines().filter(|line| is_message(line)).map(String::from).collect())
+}
+
+/// Lets the loader put the layer in.
+fn insert(command: &mut Command, folder: &Path, layer: &Path) {
+    command.env("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation").env("VK_LOADER_DEBUG", "layer");
+    command.env("VK_LAYER_PATH", layer).env("VK_LAYER_SETTINGS_PATH", folder);
+}
+
+fn is_message(line: &str) -> bool {
+    line.contains("(ERROR") || line.contains("(WARN")
+}
+
+/// What the layer prints while the tests on the device run, one after the other.
+fn tests(folder: &Path, layer: &Path) -> Result<Vec<Message>> {
+    let mut command = shell::cargo();
+    command.args(["test", "--package", "umbrage", "--test", "gpu", "--", "--nocapture", "--test-threads=1"]);
+    insert(&mut command, folder, layer);
+    let output = command.output().context("can't run the tests")?;
+    let (said, errors) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    ensure!(output.status.success(), "the tests fail under the layer: {}", errors.lines().last().unwrap_or("?"));
+    ensure!(errors.contains("Insert instance layer \"VK_LAYER_KHRONOS_validation\""), "the layer was not loaded");
+    let mut by = "the tests".to_string();
+    let mut messages = Vec::new();
+    for line in said.lines() {
+        if let Some((test, _)) = line.strip_prefix("test ").and_then(|rest| rest.split_once(" ... ")) {
+            by = test.to_string();
+        }
+        if is_message(line) {
+            messages.push(Message { by: by.clone(), text: line.to_string() });
+        }
+    }
+    Ok(messages)
 }
 
 /// The folder of the layer's description: where a host says, where systems have it, or of Debian's

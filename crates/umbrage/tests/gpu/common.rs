@@ -14,7 +14,8 @@ use umbrage_renderer::{LightPass, Renderer};
 
 /// The best adapter. Without one these tests fail and say how to get one.
 pub fn gpu() -> Gpu {
-    Gpu::request(None).unwrap_or_else(|e| panic!("this test needs a graphics adapter: {e}"))
+    let chosen = std::env::var("UMBRAGE_ADAPTER").ok();
+    Gpu::request(chosen.as_deref()).unwrap_or_else(|e| panic!("this test needs a graphics adapter: {e}"))
 }
 
 /// Pairs for [`umbrage::TechniqueInfo::settings`] from `a=1,b=2`.
