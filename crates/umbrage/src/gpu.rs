@@ -89,7 +89,7 @@ impl Gpu {
     /// Pixels by which the rasteriser may shift a surface, since it snaps corners of triangles:
     /// measured once, which waits for the device, or what every device keeps to where it can't be
     /// measured. In a browser it is what [`Gpu::measure_async`] has found before.
-    pub(crate) fn snapping(&self) -> f32 {
+    pub fn snapping(&self) -> f32 {
         #[cfg(not(target_family = "wasm"))]
         let found = self.snapping.get_or_init(|| self.finish(snapping::measured(self)).unwrap_or(snapping::GUARANTEED));
         #[cfg(target_family = "wasm")]

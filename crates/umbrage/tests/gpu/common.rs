@@ -99,6 +99,23 @@ fn traced(scene: &Scene, light: usize, size: (u32, u32), samples: u32) -> Arc<(G
     found
 }
 
+/// Steps between light and shadow from one scored pixel to the next, for each scored pixel: where
+/// the edges of hard shadows move by a part of a pixel, so many times this part are wrong.
+pub fn edge_share(scene: &Scene, light: usize, size: (u32, u32)) -> f64 {
+    let traced = traced(scene, light, size, 1);
+    let (geometry, truth) = &*traced;
+    let mask = mask(truth, geometry, 60.0);
+    let (width, height) = mask.size();
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let (mut scored, mut steps) = (0_u32, 0_u32);
+    for (x, y) in places.filter(|&at| mask[at]) {
+        scored += 1;
+        let beside = [(x + 1, y), (x, y + 1)].into_iter().filter(|&(x, y)| x < width && y < height);
+        steps += beside.filter(|&at| mask[at] && truth.visibility[at] != truth.visibility[(x, y)]).count() as u32;
+    }
+    f64::from(steps) / f64::from(scored.max(1))
+}
+
 /// The pixels to compare: those that are scored, not beside the edge of a surface and not `far`
 /// metres away.
 pub fn mask(truth: &Truth, geometry: &Geometry, far: f32) -> Image<bool> {

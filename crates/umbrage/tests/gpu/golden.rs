@@ -1,7 +1,9 @@
 //! Every technique against the ground truth, scene by scene. An error above its bound fails; so
-//! does one far below it, since then the bound (and the technique's README) has to follow.
+//! does one far below it, since then the bound (and the technique's README) has to follow. Bounds
+//! are those of a rasteriser that snaps corners to 1/256 pixel; where another one snaps to larger
+//! parts, the edges of shadows move by so much more.
 
-use crate::common::{against_truth, gpu, scene};
+use crate::common::{against_truth, edge_share, gpu, scene};
 
 /// Scene and its detail, light, technique, settings, mean absolute error ×10⁻⁴ at 320×240, least
 /// interior per cent.
@@ -74,20 +76,35 @@ const GOLDEN: &[Row] = &[
 /// may be nothing.
 const PIXELS: f64 = 3.0;
 
+/// Snapping in pixels under which the bounds hold as they are.
+const FINE: f64 = 1.0 / 256.0;
+
+/// The surface and what hides the light from it are both moved.
+const MOVED: f64 = 2.0;
+
+/// Pixels of the interior that a coarser rasteriser may get wrong, per cent: single ones, where it
+/// shows another surface than a ray meets.
+const COARSE_INTERIOR: f64 = 0.02;
+
 #[test]
 fn errors_are_as_stated() {
     let gpu = gpu();
+    let snapping = f64::from(gpu.snapping());
+    let coarse = snapping > FINE;
     let mut wrong = Vec::new();
     for &(id, detail, light, technique, set, mae, interior) in GOLDEN {
         let s = against_truth(&gpu, &scene(id, detail), light, technique, set, (320, 240), 1);
+        let mae =
+            mae + if coarse { MOVED * snapping * edge_share(&scene(id, detail), light, (320, 240)) * 1e4 } else { 0.0 };
+        let interior = interior - if coarse { COARSE_INTERIOR } else { 0.0 };
         let (got, inside) = (s.mae * 1e4, s.interior_pct.unwrap_or(0.0));
         let row = format!(
-            "{id} {technique} {set}: mae {got:.2}e-4 (stated {mae}), interior {inside:.3} % (at least {interior})"
+            "{id} {technique} {set}: mae {got:.2}e-4 (stated {mae:.2}), interior {inside:.3} % (at least {interior})"
         );
         println!("{row}");
         if got > mae || inside < interior || s.not_finite > 0 {
             wrong.push(format!("worse: {row}"));
-        } else if got + PIXELS * 1e4 / s.scored_pixels as f64 <= 0.5 * mae {
+        } else if !coarse && got + PIXELS * 1e4 / s.scored_pixels as f64 <= 0.5 * mae {
             wrong.push(format!("much better, state it: {row}"));
         }
     }
