@@ -28,7 +28,9 @@ Techniques take turns frame by frame. `floor` is one full-screen pass that reads
 flicker: the mean absolute change of visibility, 0 to 1, from one frame to the next at points that are fixed in the scene. A point \
 counts where two frames show it within 1/8 pixel of a pixel's centre, so that nothing is interpolated. Lights and casters stand \
 still, so the truth does not change; the change of the ray tracer's visibility at the same pixels is the effect of this 1/8 pixel. \
-The ratio of both is 1 where shadows are still, and grows with edges that crawl, jump or sparkle.")]
+The ratio of both is 1 where shadows are still, and grows with edges that crawl, jump or sparkle.
+
+--bytes counts the fragments of every render pass that reach its target, and multiplies them by the bytes that each reads and writes: attachments (depth to test and to write, colour to write and to blend), texels of maps, and depth and normal of the receiver. What a test of depth rejects or a shader discards is not counted, and compute passes are not. A technique whose fragments differ in what they read, and does not say how much that is at most, has no sum.")]
 pub struct Bench {
     #[command(flatten)]
     what: args::What,
@@ -52,6 +54,9 @@ pub struct Bench {
     /// Measure the wrong single-pass algorithm, too: one overlay for the shadows of all lights
     #[arg(long, requires = "lights_together")]
     overlay: bool,
+    /// Count fragments in one more frame, and the bytes that they move
+    #[arg(long)]
+    bytes: bool,
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = args::size)]
     size: Size,
@@ -81,6 +86,7 @@ impl Bench {
             samples: self.samples,
             together: self.lights_together,
             overlay: self.overlay,
+            bytes: self.bytes,
             command: context.line.clone(),
         };
         let report = plan.run(&gpu, &Bars::default())?;

@@ -77,6 +77,11 @@ impl Renderer {
         std::mem::replace(&mut self.recorder, new)
     }
 
+    /// The same in place, to take turns with one that counts.
+    pub fn swap_recorder(&mut self, other: &mut Recorder) {
+        std::mem::swap(&mut self.recorder, other);
+    }
+
     /// From the next frame on shades by the single-pass algorithm (PX 3.4): every light shines
     /// everywhere, and whatever is in the shadow of any of them loses this share of its light;
     /// wrong, and kept to be compared with. The first light's technique does all lights. `None`

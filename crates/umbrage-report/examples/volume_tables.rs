@@ -208,6 +208,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             samples: 1,
             together: lights == Lights::Four,
             overlay: lights == Lights::Four,
+            bytes: false,
             command: command.clone(),
         };
         let report = plan.run(&gpu, &Lines)?;

@@ -34,7 +34,7 @@ mod sweep;
 mod table;
 mod truth;
 
-pub use bench::{Bench, BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene};
+pub use bench::{Bench, BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene, BenchTraffic};
 pub use choice::{Choice, LIGHT_SAMPLES, RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced};
 pub use column::{COLUMNS, Column, RADIANCE_COLUMNS};
 pub use compare::{Compare, Outcome};

@@ -171,6 +171,7 @@ fn bench_goes_on() {
         samples: 1,
         together: false,
         overlay: false,
+        bytes: false,
         command: Vec::new(),
     };
     let mut report = bench.run(&gpu(), &Silent).unwrap();

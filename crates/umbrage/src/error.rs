@@ -26,6 +26,9 @@ pub enum Error {
     /// The driver rejected something that should have been right.
     #[error("the graphics driver reports: {0}")]
     Driver(String),
+    /// Fragments were to be counted, and the device only tells whether there are any.
+    #[error("this adapter counts no fragments, it only tells whether there are any; choose another with --adapter")]
+    NotCounted,
     /// Name not in the registry, with the nearest one.
     #[error("unknown {what} `{name}`{}", suggestion(.nearest))]
     Unknown {

@@ -68,7 +68,7 @@ pub use casters::{Casters, SeenCasters};
 pub use error::{Error, nearest};
 pub use gpu::{AdapterSummary, Gpu};
 pub use light_samples::light_samples;
-pub use passes::{Owner, PassTime, Passes, Recorder};
+pub use passes::{Owner, Pass, PassFragments, PassTime, Passes, Recorder};
 pub use receivers::{Eye, Receivers};
 pub use registry::{Filter, FilterId, FilterUse, Registry, find, parse, techniques};
 #[doc(hidden)]

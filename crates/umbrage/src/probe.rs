@@ -78,6 +78,10 @@ impl Inside for Probe {
         vec![("probes", 1)]
     }
 
+    fn reads(&self, pass: &str) -> Option<u64> {
+        (pass == "probe").then_some(5)
+    }
+
     fn inspect(&mut self, view: Option<&str>) {
         self.note(&format!("inspect {}", view.unwrap_or_default()));
     }
@@ -103,5 +107,6 @@ pub fn assert_forwards(wrap: impl Fn(&Gpu, Box<dyn Technique>) -> Box<dyn Techni
     assert_eq!(inside.light_views().iter().map(|view| view.size).collect::<Vec<_>>(), [7]);
     assert_eq!(inside.split_distances(), [3.0]);
     assert_eq!(inside.counts(), [("probes", 1)]);
+    assert_eq!(inside.reads("probe"), Some(5));
     assert_eq!(inside.debug_views().iter().map(|view| view.name).collect::<Vec<_>>(), ["probe"]);
 }

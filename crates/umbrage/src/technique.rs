@@ -90,6 +90,13 @@ pub trait Inside {
         Vec::new()
     }
 
+    /// Bytes that a fragment of this render pass reads apart from the attachments that it is tested
+    /// against: texels, and what is blended over; the most where fragments differ. `None` where
+    /// that is not known.
+    fn reads(&self, _pass: &str) -> Option<u64> {
+        None
+    }
+
     /// From the next frame on draws this one of [`TechniqueInfo::views`] where a frame does not
     /// make it anyway, and shows it among [`Inside::debug_views`]; `None` and other names end that.
     fn inspect(&mut self, _view: Option<&str>) {}

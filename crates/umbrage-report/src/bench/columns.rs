@@ -37,7 +37,7 @@ const fn shown(name: &'static str, field: Field, heading: &'static str, text: Fi
 }
 
 /// Of CSV, in its order.
-pub(crate) const COLUMNS: [Column; 25] = [
+pub(crate) const COLUMNS: [Column; 28] = [
     of("scene", |row| row.scene.source.clone()),
     of("light", |row| row.light.light.map_or(String::new(), |number| number.to_string())),
     of("kind", |row| row.light.kind.into()),
@@ -77,6 +77,9 @@ pub(crate) const COLUMNS: [Column; 25] = [
         |row| row.result.flicker.map_or("–".into(), |v| format!("{v:.5}")),
     ),
     shown("flicker_ratio", |row| maybe(row.result.flicker_ratio), "× truth", |row| short(row.result.flicker_ratio)),
+    shown("fragments", fragments, "fragments", fragments),
+    shown("bytes_moved", |row| moved(row).map_or(String::new(), |bytes| bytes.to_string()), "MB moved", moved_shown),
+    of("traffic", traffic),
     of("counts", |row| {
         let counts = row.result.cost.iter().flat_map(|c| &c.counts).map(|(name, count)| format!("{name}={count}"));
         counts.collect::<Vec<_>>().join(";")
@@ -99,6 +102,9 @@ pub(crate) const SHOWN: [&str; 10] = [
 
 /// More of them, where the camera was on a path.
 pub(crate) const SHOWN_ON_PATH: [&str; 2] = ["flicker", "flicker_ratio"];
+
+/// More of them, where fragments were counted.
+pub(crate) const SHOWN_WITH_BYTES: [&str; 2] = ["fragments", "bytes_moved"];
 
 /// Id and settings of a result, as one would ask for it.
 pub(crate) fn label(result: &BenchResult) -> String {
@@ -144,6 +150,26 @@ fn cost(row: &Row<'_>, text: fn(&BenchCost) -> String) -> String {
 
 fn triangles(row: &Row<'_>) -> String {
     cost(row, |cost| cost.triangles.to_string())
+}
+
+fn fragments(row: &Row<'_>) -> String {
+    let moved = row.result.cost.as_ref().and_then(BenchCost::moved);
+    moved.map_or(String::new(), |(fragments, _)| fragments.to_string())
+}
+
+fn moved(row: &Row<'_>) -> Option<u64> {
+    row.result.cost.as_ref()?.moved()?.1
+}
+
+fn moved_shown(row: &Row<'_>) -> String {
+    moved(row).map_or("–".into(), |bytes| format!("{:.2}", bytes as f64 * 1e-6))
+}
+
+/// Fragments and bytes of each pass.
+fn traffic(row: &Row<'_>) -> String {
+    let passes = row.result.cost.iter().flat_map(|cost| cost.traffic.iter().flatten());
+    let bytes = |bytes: Option<u64>| bytes.map_or("?".into(), |bytes| bytes.to_string());
+    passes.map(|p| format!("{}={}:{}", p.pass, p.fragments, bytes(p.bytes))).collect::<Vec<_>>().join(";")
 }
 
 fn all_passes(row: &Row<'_>) -> String {

@@ -8,5 +8,5 @@ mod run;
 mod runner;
 mod table;
 
-pub use record::{BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene};
+pub use record::{BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene, BenchTraffic};
 pub use run::Bench;

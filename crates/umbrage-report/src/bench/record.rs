@@ -119,9 +119,24 @@ pub struct BenchCost {
     pub triangles: u64,
     /// GPU memory it holds, bytes.
     pub bytes: u64,
+    /// Fragments of every render pass of the technique and bytes that they move; null where they
+    /// were not counted.
+    pub traffic: Option<Vec<BenchTraffic>>,
     /// More numbers of its last frame, by name, in the technique's own order.
     #[serde(serialize_with = "in_order")]
     pub counts: Vec<(&'static str, u64)>,
+}
+
+/// What a render pass of a technique draws and moves.
+#[derive(Clone, Debug, Serialize)]
+pub struct BenchTraffic {
+    /// The pass.
+    pub pass: String,
+    /// Fragments that reached its target, see [`umbrage::PassFragments`].
+    pub fragments: u64,
+    /// Bytes that they read and write in attachments and, at most, in textures. Null where the
+    /// technique does not say what it reads.
+    pub bytes: Option<u64>,
 }
 
 /// GPU time of a pass.
@@ -161,8 +176,19 @@ impl BenchCost {
         self.gpu_ms.map(|gpu| gpu.median + self.prepare_ms.median)
     }
 
+    /// Fragments of all its passes together, and the bytes that they move, where all are known.
+    pub(crate) fn moved(&self) -> Option<(u64, Option<u64>)> {
+        let passes = self.traffic.as_ref()?;
+        Some((passes.iter().map(|p| p.fragments).sum(), passes.iter().map(|p| p.bytes).sum()))
+    }
+
     /// Of measured frames, and what the techniques of all their lights drew and hold.
-    pub(crate) fn new(frames: &Frames, stats: &[Stats], counts: Vec<(&'static str, u64)>) -> Self {
+    pub(crate) fn new(
+        frames: &Frames,
+        stats: &[Stats],
+        traffic: Option<Vec<BenchTraffic>>,
+        counts: Vec<(&'static str, u64)>,
+    ) -> Self {
         let passes = frames.passes().into_iter();
         Self {
             passes: passes.map(|(owner, pass, time_ms)| BenchPass { owner, pass, time_ms }).collect(),
@@ -172,6 +198,7 @@ impl BenchCost {
             draws: stats.iter().map(|s| s.draws).sum(),
             triangles: stats.iter().map(|s| s.triangles).sum(),
             bytes: stats.iter().map(|s| s.bytes).sum(),
+            traffic,
             counts,
         }
     }

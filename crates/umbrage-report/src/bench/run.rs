@@ -18,7 +18,7 @@ use crate::{
     source::Source,
     stage::check_choices,
 };
-use umbrage::{Gpu, Technique, baseline};
+use umbrage::{Gpu, Recorder, Technique, baseline};
 use umbrage_core::LightKind;
 use umbrage_reference::Tracer;
 use umbrage_renderer::{LightPass, Renderer};
@@ -46,6 +46,8 @@ pub struct Bench {
     pub together: bool,
     /// Measures techniques that know it by the single-pass algorithm for all lights at once, too.
     pub overlay: bool,
+    /// Counts fragments in one more frame, and the bytes that they move.
+    pub bytes: bool,
     /// The command line, for the record.
     pub command: Vec<String>,
 }
@@ -123,6 +125,7 @@ impl Bench {
         };
         let mut record =
             BenchLight { light, kind, together, flicker_reference: None, flicker_points: None, results: Vec::new() };
+        let mut counting = self.bytes.then(|| Recorder::counting(gpu)).transpose()?;
         progress.begin(&format!("{}, {}", source.scene.name, record.title()), self.frames.into());
         let mut runners = self.runners(gpu, source, lights);
         let followed = tracer.zip(lights.first().map(|&light| &source.scene.lights[light]));
@@ -143,6 +146,9 @@ impl Bench {
                 follower.frame(&camera, &techniques.map(|r| r.renderer.as_ref().ok()).collect::<Vec<_>>())?;
             }
             progress.at(counted.into());
+        }
+        if let Some(recorder) = &mut counting {
+            runners.iter_mut().for_each(|runner| runner.count(gpu, &source.scene.camera, recorder));
         }
         progress.end();
         let costs: Vec<_> = runners.iter().map(|r| (r.baseline, r.cost())).collect();
@@ -166,7 +172,7 @@ impl Bench {
             });
             let anew = self.path.is_none() && self.moving == Moving::None;
             let frames = Frames::default();
-            Runner { baseline, choice, renderer, overlay: false, anew, lights: lights.len(), frames }
+            Runner { baseline, choice, renderer, overlay: false, anew, lights: lights.len(), frames, traffic: None }
         };
         // What has splits is set against one map, too.
         let maps = self.choices.iter().map(Maps::of);

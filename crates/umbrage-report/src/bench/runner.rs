@@ -3,7 +3,7 @@
 use crate::{
     bench::{
         baseline::{Baseline, Maps},
-        record::{BenchCost, BenchResult},
+        record::{BenchCost, BenchResult, BenchTraffic},
     },
     choice::Choice,
     error::Error,
@@ -11,7 +11,7 @@ use crate::{
     status::Status,
 };
 use std::collections::BTreeMap;
-use umbrage::Gpu;
+use umbrage::{Gpu, Owner, PassFragments, Recorder};
 use umbrage_core::Camera;
 use umbrage_renderer::Renderer;
 
@@ -26,6 +26,8 @@ pub(crate) struct Runner<'a> {
     /// How many there are.
     pub lights: usize,
     pub frames: Frames,
+    /// What was counted, if it was.
+    pub traffic: Option<Vec<BenchTraffic>>,
 }
 
 impl Runner<'_> {
@@ -41,10 +43,45 @@ impl Runner<'_> {
         }
     }
 
+    /// Counts fragments in one more frame, which does all of the work.
+    pub(crate) fn count(&mut self, gpu: &Gpu, camera: &Camera, counting: &mut Recorder) {
+        let Ok(renderer) = &mut self.renderer else { return };
+        renderer.forget();
+        renderer.swap_recorder(counting);
+        let drawn = gpu.catch(|| Ok(renderer.frame(camera).and_then(|()| renderer.wait())?));
+        renderer.swap_recorder(counting);
+        if let Err(error) = drawn {
+            self.renderer = Err(error);
+            return;
+        }
+        let mut traffic: Vec<BenchTraffic> = Vec::new();
+        for PassFragments { owner, pass, fragments, attachment_bytes } in counting.fragments() {
+            let Owner::Light(light) = owner else { continue };
+            let reads = renderer.technique(light).and_then(|technique| technique.inside().reads(&pass));
+            // Who draws nothing reads nothing.
+            let reads = reads.or((fragments == 0).then_some(0));
+            let bytes = reads.map(|reads| attachment_bytes + reads * fragments);
+            match traffic.iter_mut().find(|other| other.pass == pass) {
+                Some(other) => {
+                    other.fragments += fragments;
+                    other.bytes = other.bytes.zip(bytes).map(|(one, other)| one + other);
+                }
+                None => traffic.push(BenchTraffic { pass, fragments, bytes }),
+            }
+        }
+        self.traffic = Some(traffic);
+    }
+
     pub(crate) fn cost(&self) -> Option<BenchCost> {
         let renderer = self.renderer.as_ref().ok()?;
         let stats: Vec<_> = (0..self.lights).map(|pass| renderer.stats(pass)).collect();
-        Some(BenchCost::new(&self.frames, &stats, added((0..self.lights).flat_map(|pass| renderer.counts(pass)))))
+        let traffic = self.traffic.clone();
+        Some(BenchCost::new(
+            &self.frames,
+            &stats,
+            traffic,
+            added((0..self.lights).flat_map(|pass| renderer.counts(pass))),
+        ))
     }
 
     pub(crate) fn result(&self, cost: Option<BenchCost>, all: &[(Option<Baseline>, Option<BenchCost>)]) -> BenchResult {

@@ -2,7 +2,7 @@
 
 use crate::{
     bench::{
-        columns::{COLUMNS, Column, Row, SHOWN, SHOWN_ON_PATH},
+        columns::{COLUMNS, Column, Row, SHOWN, SHOWN_ON_PATH, SHOWN_WITH_BYTES},
         record::{BenchLight, BenchReport, BenchScene},
     },
     motion::Moving,
@@ -52,7 +52,9 @@ impl BenchReport {
 
 /// A row a technique; what has no numbers says why.
 fn table(scene: &BenchScene, light: &BenchLight, on_path: bool) -> Table {
-    let more: &[&str] = if on_path { &SHOWN_ON_PATH } else { &[] };
+    let is_counted = light.results.iter().flat_map(|result| &result.cost).any(|cost| cost.traffic.is_some());
+    let more = [(on_path, &SHOWN_ON_PATH), (is_counted, &SHOWN_WITH_BYTES)];
+    let more = more.into_iter().filter(|(is_there, _)| *is_there).flat_map(|(_, names)| names);
     let named = |name: &&str| COLUMNS.iter().find(|column| column.name == *name);
     let columns: Vec<_> =
         SHOWN.iter().chain(more).filter_map(named).filter_map(|column: &Column| column.shown).collect();
@@ -92,6 +94,7 @@ mod tests {
             draws: 3,
             triangles: 500,
             bytes: 1 << 20,
+            traffic: None,
             counts: vec![("edges", 7), ("caps", 2)],
         };
         let result = |technique: &str, cost: Option<BenchCost>, reason: Option<&str>| BenchResult {
@@ -139,7 +142,7 @@ mod tests {
 
     #[test]
     fn every_column_of_the_terminal_is_declared() {
-        for name in SHOWN.iter().chain(&SHOWN_ON_PATH) {
+        for name in SHOWN.iter().chain(&SHOWN_ON_PATH).chain(&SHOWN_WITH_BYTES) {
             let column = COLUMNS.iter().find(|column| column.name == *name);
             assert!(column.is_some_and(|column| column.shown.is_some()), "{name}");
         }

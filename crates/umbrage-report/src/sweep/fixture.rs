@@ -24,6 +24,7 @@ pub(crate) fn cost(gpu_ms: Option<f64>, prepare_ms: f64, frame_ms: f64) -> Bench
         draws: 3,
         triangles: 500,
         bytes: 1 << 20,
+        traffic: None,
         counts: Vec::new(),
     }
 }

@@ -154,12 +154,12 @@ impl Runner {
     }
 
     fn cost(&self) -> Option<BenchCost> {
-        self.actor.as_ref().ok().map(|_| BenchCost::new(&self.frames, &[self.stats], self.counts.clone()))
+        self.actor.as_ref().ok().map(|_| BenchCost::new(&self.frames, &[self.stats], None, self.counts.clone()))
     }
 
     fn timed(self, clock: Clock, floor_ms: Option<f64>) -> Timed {
         let Self { actor, frames, stats, counts } = self;
-        let cost = actor.map(|_| BenchCost::new(&frames, &[stats], counts));
+        let cost = actor.map(|_| BenchCost::new(&frames, &[stats], None, counts));
         let own_ms = cost.as_ref().ok().and_then(|cost| cost_ms(cost, clock));
         Timed { frames: frames.count(), over_floor_ms: own_ms.zip(floor_ms).map(|(own, floor)| own - floor), cost }
     }

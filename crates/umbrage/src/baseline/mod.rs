@@ -88,4 +88,8 @@ impl Inside for Floor {
     fn stats(&self) -> Stats {
         Stats { draws: 1, triangles: 1, ..Stats::default() }
     }
+
+    fn reads(&self, pass: &str) -> Option<u64> {
+        (pass == "floor").then_some(4)
+    }
 }

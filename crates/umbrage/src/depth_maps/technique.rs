@@ -32,7 +32,12 @@ pub struct MapTechnique {
     stage: Option<Box<dyn Stage>>,
     lookup: Lookup,
     draws: u32,
+    /// Bytes of the maps that a look-up reads, where the technique has said.
+    texel_bytes: Option<u64>,
 }
+
+/// Bytes of depth and packed normal that every look-up reads of a receiver.
+const RECEIVER_BYTES: u64 = 8;
 
 impl MapTechnique {
     /// `reach_texels`: how far the shader looks around a receiver in the map. `constants` override
@@ -70,6 +75,7 @@ impl MapTechnique {
             stage,
             lookup,
             draws: 0,
+            texel_bytes: None,
         })
     }
 
@@ -92,6 +98,12 @@ impl MapTechnique {
     /// Keeps room around the maps for what hides the light's rim from receivers at their border.
     pub fn soft(mut self) -> Self {
         self.fit.soft = true;
+        self
+    }
+
+    /// Says how many bytes of the maps a look-up reads at most, four for each texel of depth.
+    pub fn reading(mut self, bytes: u64) -> Self {
+        self.texel_bytes = Some(bytes);
         self
     }
 
@@ -176,6 +188,16 @@ impl Inside for MapTechnique {
 
     fn light_views(&self) -> &[LightView] {
         &self.frame.views
+    }
+
+    fn reads(&self, pass: &str) -> Option<u64> {
+        match pass {
+            "map" => Some(0),
+            "second surface" => Some(4),
+            "midpoint" => Some(8),
+            "visibility" => self.texel_bytes.map(|bytes| RECEIVER_BYTES + bytes),
+            _ => self.stage.as_ref()?.reads(pass),
+        }
     }
 
     fn split_distances(&self) -> &[f64] {

@@ -6,6 +6,7 @@ mod common;
 mod dark;
 mod edges_in_maps;
 mod filters;
+mod fragments;
 mod golden;
 mod host;
 mod layouts;

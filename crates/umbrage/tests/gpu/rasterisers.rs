@@ -50,7 +50,7 @@ fn warped_maps_of_a_large_ground_show_what_stands_on_it() {
     // In pieces, since rasterisers may give a triangle of kilometres under the camera another depth.
     let floor = scene.instances.remove(0);
     for (x, z) in (0..64).map(|i| (f64::from(i % 8), f64::from(i / 8))) {
-        let middle = DVec3::new(500.0 * x - 1750.0, 0.0, 500.0 * z - 1750.0);
+        let middle = DVec3::new(250.0 * x - 875.0, 0.0, 250.0 * z - 875.0);
         scene.place(
             floor.mesh,
             floor.material,

@@ -32,6 +32,11 @@ pub trait Stage: wgpu::WasmNotSend {
     /// Bytes of GPU memory held.
     fn bytes(&self) -> u64;
 
+    /// See [`crate::Inside::reads`].
+    fn reads(&self, _pass: &str) -> Option<u64> {
+        None
+    }
+
     /// Pictures of what is inside.
     fn debug_views(&self) -> Vec<DebugView<'_>> {
         Vec::new()

@@ -78,6 +78,12 @@ impl Filter for Pcf {
         };
         let reach = if side == 0 { self.radius + 1.0 } else { 0.5 * f64::from(side) + 0.5 };
         let constants = [("KERNEL", f64::from(side)), ("TAPS", f64::from(self.taps)), ("RADIUS", self.radius)];
-        Ok(Box::new(MapTechnique::new(gpu, maps, &SHADER, reach, &constants)?))
+        // A bilinear comparison reads four texels; squares of them share most.
+        let texels: u32 = match side {
+            0 => 4 * self.taps,
+            2 | 4 => side * side,
+            _ => (side + 1) * (side + 1),
+        };
+        Ok(Box::new(MapTechnique::new(gpu, maps, &SHADER, reach, &constants)?.reading(4 * u64::from(texels))))
     }
 }

@@ -56,6 +56,6 @@ impl Configure for ShadowMap {
 
 impl Filter for ShadowMap {
     fn make_on(&self, gpu: &Gpu, maps: &MapSetup) -> Result<Box<dyn Technique>, Error> {
-        Ok(Box::new(MapTechnique::new(gpu, maps, &SHADER, 0.5, &[])?))
+        Ok(Box::new(MapTechnique::new(gpu, maps, &SHADER, 0.5, &[])?.reading(4)))
     }
 }

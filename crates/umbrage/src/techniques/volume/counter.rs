@@ -5,7 +5,7 @@ use super::depth::{DepthBounds, DepthCopy, Projection};
 use super::options::CounterKind;
 use super::pipelines::TargetKey;
 use crate::fullscreen::{bind, target_texture};
-use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View};
+use crate::{gpu::Gpu, passes::{Pass, Passes}, receivers::Receivers, view::View};
 
 /// Targets of one size, and the pass that copies depth where it has to be copied.
 pub(super) struct Counter {
@@ -83,7 +83,7 @@ impl Counter {
         passes: &'p mut Passes<'_>,
         receivers: &Receivers,
         start: Option<i32>,
-    ) -> Option<wgpu::RenderPass<'p>> {
+    ) -> Option<Pass<'p>> {
         let targets = self.targets.as_ref()?;
         if let (Some(copied), Some(copy), Some(_)) = (&targets.copied, &self.copy, start) {
             copy.record(passes, receivers, copied, self.key.depth_format, self.bounds.as_ref());
@@ -108,6 +108,12 @@ impl Counter {
     /// The counts as a texture, where they are floats.
     pub fn read_counts(&self) -> Option<&wgpu::BindGroup> {
         self.targets.as_ref()?.read_counts.as_ref()
+    }
+
+    /// Bytes of a count in floats; 0 where the stencil counts.
+    pub fn blended_bytes(&self) -> u64 {
+        let counts = self.counts().map(|view| view.texture().format());
+        counts.and_then(|format| format.block_copy_size(None)).map_or(0, u64::from)
     }
 
     /// The texture of float counts.

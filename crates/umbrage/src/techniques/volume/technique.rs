@@ -244,6 +244,16 @@ impl Inside for Volume {
         }
     }
 
+    fn reads(&self, pass: &str) -> Option<u64> {
+        match pass {
+            // A count in floats is blended over; the stencil is an attachment.
+            "volumes" => Some(self.counter.blended_bytes()),
+            "depth for volumes" => Some(4),
+            "visibility" => Some(4 + self.counter.blended_bytes()),
+            _ => None,
+        }
+    }
+
     fn counts(&self) -> Vec<(&'static str, u64)> {
         let s = &self.selection;
         let fate = |fate| u64::from(s.count(fate));

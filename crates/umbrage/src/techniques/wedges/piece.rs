@@ -11,7 +11,7 @@ use crate::area_light::{Form, Frame, ROUNDING};
 use crate::casters::Edges;
 use crate::receivers::Eye;
 use crate::silhouettes::{Extrude, Part, Silhouettes, Style};
-use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
+use crate::{error::Error, gpu::Gpu, passes::{Pass, Passes}, view::View};
 use std::ops::Range;
 
 /// Workgroups in a row, the most that every adapter allows.
@@ -146,7 +146,7 @@ impl Piece {
         color: Option<wgpu::RenderPassColorAttachment<'p>>,
         stencil_ops: Option<wgpu::Operations<u32>>,
         r: &Recording<'p>,
-    ) -> wgpu::RenderPass<'p> {
+    ) -> Pass<'p> {
         let depth = r.target.depth(view);
         let depth = depth.map(|view| wgpu::RenderPassDepthStencilAttachment { view, depth_ops: None, stencil_ops });
         let mut pass = passes.render("wedges", &[color], depth);

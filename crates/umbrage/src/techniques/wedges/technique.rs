@@ -279,6 +279,17 @@ impl Inside for Wedges {
         }
     }
 
+    fn reads(&self, pass: &str) -> Option<u64> {
+        let shares = draws::shares_format(&self.gpu).block_copy_size(None).map_or(0, u64::from);
+        match pass {
+            // The depth of the receiver, and the shares that are blended over.
+            "wedges" => Some(4 + shares),
+            "depth of wedges" => Some(4),
+            "visibility" => Some(8 + shares * self.pieces.len() as u64),
+            _ => None,
+        }
+    }
+
     fn counts(&self) -> Vec<(&'static str, u64)> {
         let found = self.pieces.iter().filter_map(|p| p.silhouettes.found()).map(|[sides, ..]| u64::from(sides));
         found.reduce(|sum, more| sum + more).map(|wedges| ("wedges", wedges)).into_iter().collect()
