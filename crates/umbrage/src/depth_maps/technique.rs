@@ -95,6 +95,13 @@ impl MapTechnique {
         self
     }
 
+    /// With pictures over the scene, see `map_picture.wgsl`, by their names among
+    /// [`crate::TechniqueInfo::views`]. The shader's constants are those of the look-up.
+    pub fn with_pictures(mut self, gpu: &Gpu, shader: &Shader, names: &'static [&'static str]) -> Self {
+        self.lookup.with_pictures(gpu, shader, names);
+        self
+    }
+
     /// Keeps room around the maps for what hides the light's rim from receivers at their border.
     pub fn soft(mut self) -> Self {
         self.fit.soft = true;
@@ -204,6 +211,10 @@ impl Inside for MapTechnique {
         self.frame.borders.get(1..self.frame.borders.len().saturating_sub(1)).unwrap_or_default()
     }
 
+    fn inspect(&mut self, view: Option<&str>) {
+        self.lookup.inspect(view);
+    }
+
     fn debug_views(&self) -> Vec<DebugView<'_>> {
         let Some(texture) = &self.frame.texture else { return Vec::new() };
         let layers = self.frame.views.iter();
@@ -212,7 +223,7 @@ impl Inside for MapTechnique {
             texture,
             layer: v.layer,
         });
-        maps.chain(self.stage.iter().flat_map(|s| s.debug_views())).collect()
+        maps.chain(self.stage.iter().flat_map(|s| s.debug_views())).chain(self.lookup.picture()).collect()
     }
 }
 

@@ -14,6 +14,7 @@ macro_rules! techniques {
 techniques![
     none,
     shadow_map,
+    silhouette_map,
     pcf,
     pcf_jitter,
     pcf_blur,

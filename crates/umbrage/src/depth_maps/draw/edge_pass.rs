@@ -77,6 +77,7 @@ pub struct EdgeTarget<'a> {
 /// What pipelines are made for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Kind {
+    perspective: bool,
     paraboloid: bool,
     /// Maps store linear depths.
     linear: bool,
@@ -151,7 +152,7 @@ impl EdgePass {
         let count = self.views.len();
         self.uniforms.resize_with(self.uniforms.len().max(count), || view_uniform(gpu, &self.view_layout));
         let paraboloid = frame.layers == Layers::Omni(Omni::DualParaboloid);
-        self.kind = Kind { paraboloid, linear: frame.is_linear };
+        self.kind = Kind { perspective: frame.is_from_a_point(), paraboloid, linear: frame.is_linear };
         if !self.pipelines.iter().any(|(kind, _)| *kind == self.kind) {
             let made = self.draws.iter().map(|draw| self.pipeline(gpu, draw)).collect();
             self.pipelines.push((self.kind, made));
@@ -240,7 +241,8 @@ impl EdgePass {
 
     fn pipeline(&self, gpu: &Gpu, draw: &EdgeDraw) -> wgpu::RenderPipeline {
         let on = |switch: bool| if switch { 1.0 } else { 0.0 };
-        let own = [("PARABOLOID", on(self.kind.paraboloid)), ("LINEAR", on(self.kind.linear))];
+        let Kind { perspective, paraboloid, linear } = self.kind;
+        let own = [("PERSPECTIVE", on(perspective)), ("PARABOLOID", on(paraboloid)), ("LINEAR", on(linear))];
         let constants = [&self.constants[..], &own].concat();
         let compilation_options = || wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
         gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {

@@ -4,6 +4,8 @@
 
 @group(2) @binding(0) var<uniform> map_view: MapView;
 
+// The layer is seen from a point.
+override PERSPECTIVE: bool = false;
 // The layer is a paraboloid. Its edges are straight between corners, as those of its triangles are.
 override PARABOLOID: bool = false;
 

@@ -4,6 +4,7 @@ mod extent;
 mod layer;
 mod pass;
 mod phases;
+mod pictures;
 mod steady;
 mod uniforms;
 

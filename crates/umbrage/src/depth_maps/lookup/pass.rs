@@ -2,6 +2,7 @@
 
 use super::extent::is_round;
 use super::phases::{OpenPixels, Phase};
+use super::pictures::Pictures;
 use super::uniforms::MapLookup;
 use crate::depth_maps::frame::MapFrame;
 use crate::depth_maps::layers::Layers;
@@ -12,6 +13,7 @@ use crate::{
     passes::Passes,
     receivers::Receivers,
     shader::Shader,
+    technique::DebugView,
     view::View,
     visibility::VisibilityTarget,
 };
@@ -33,6 +35,7 @@ pub(in crate::depth_maps) struct Lookup {
     sampler: wgpu::Sampler,
     bind_group: Option<(wgpu::Texture, wgpu::BindGroup)>,
     current: Option<usize>,
+    pictures: Option<Pictures>,
 }
 
 /// The draws of a look-up, in order.
@@ -40,7 +43,7 @@ type Draws = Vec<(Phase, wgpu::RenderPipeline)>;
 
 /// What pipelines are made for.
 #[derive(Clone, Copy, PartialEq)]
-struct Variant {
+pub(super) struct Variant {
     /// The light turns the same side to all.
     round: bool,
     perspective: bool,
@@ -85,7 +88,23 @@ impl Lookup {
             }),
             bind_group: None,
             current: None,
+            pictures: None,
         }
+    }
+
+    /// With pictures of what `shader` finds, see `map_picture.wgsl`.
+    pub fn with_pictures(&mut self, gpu: &Gpu, shader: &Shader, names: &'static [&'static str]) {
+        self.pictures = Some(Pictures::new(gpu, shader, names));
+    }
+
+    /// Shows one of the pictures from the next frame on, or none.
+    pub fn inspect(&mut self, view: Option<&str>) {
+        self.pictures.iter_mut().for_each(|pictures| pictures.inspect(view));
+    }
+
+    /// The picture that is shown.
+    pub fn picture(&self) -> Option<DebugView<'_>> {
+        self.pictures.as_ref().and_then(Pictures::view)
     }
 
     /// Multiplies the automatic bias from the next frame on.
@@ -99,6 +118,18 @@ impl Lookup {
     }
 
     pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &MapFrame) {
+        self.choose(gpu, view, maps);
+        if let Some(mut pictures) = self.pictures.take() {
+            let variant = self.current.map(|current| self.pipelines[current].0);
+            let constants = variant.map_or_else(Vec::new, |variant| self.constants_of(variant));
+            let receivers = Receivers::layout(gpu);
+            pictures.prepare(gpu, variant, &self.groups(&receivers), &constants, view.receivers.size);
+            self.pictures = Some(pictures);
+        }
+    }
+
+    /// Chooses the pipelines of this frame.
+    fn choose(&mut self, gpu: &Gpu, view: &View<'_>, maps: &MapFrame) {
         self.current = None;
         let Some(texture) = maps.texture.as_ref().filter(|_| !maps.views.is_empty()) else { return };
         self.data = MapLookup::new(view, maps, self.bias);
@@ -156,11 +187,16 @@ impl Lookup {
                 pass.draw(0..3, 0..1);
             }
         }
+        drop(pass);
+        if let Some(pictures) = &self.pictures {
+            let own = self.bind_group.as_ref().map(|(_, bind_group)| bind_group);
+            pictures.record(passes, [Some(&receivers.bind_group), own, more]);
+        }
         draws.len() as u32
     }
 
     pub fn bytes(&self) -> u64 {
-        self.uniforms.size() + self.open.bytes()
+        self.uniforms.size() + self.open.bytes() + self.pictures.as_ref().map_or(0, Pictures::bytes)
     }
 
     fn draws_of(&self, gpu: &Gpu, variant: Variant) -> Draws {
@@ -171,7 +207,12 @@ impl Lookup {
         if self.is_quick { &[Phase::Quick, Phase::Rest] } else { &[Phase::Whole] }
     }
 
-    fn pipeline(&self, gpu: &Gpu, variant: Variant, phase: Phase) -> wgpu::RenderPipeline {
+    /// Of the look-up's pipelines.
+    fn groups<'a>(&'a self, receivers: &'a wgpu::BindGroupLayout) -> Vec<&'a wgpu::BindGroupLayout> {
+        [receivers, &self.layout].into_iter().chain(&self.more).collect()
+    }
+
+    fn constants_of(&self, variant: Variant) -> Vec<(&'static str, f64)> {
         let mut constants = self.constants.clone();
         let on = |switch: bool| if switch { 1.0 } else { 0.0 };
         constants.push(("ROUND", on(variant.round)));
@@ -182,15 +223,18 @@ impl Lookup {
         constants.push(("STEADY", on(variant.steady)));
         constants.push(("LINEAR", on(variant.linear)));
         constants.push(("HAS_NORMALS", on(variant.has_normals)));
+        constants
+    }
+
+    fn pipeline(&self, gpu: &Gpu, variant: Variant, phase: Phase) -> wgpu::RenderPipeline {
         let receivers = Receivers::layout(gpu);
-        let groups: Vec<_> = [&receivers, &self.layout].into_iter().chain(&self.more).collect();
         Fullscreen {
             label: "map lookup",
             module: &self.module,
             entry: phase.entry(),
-            groups: &groups,
+            groups: &self.groups(&receivers),
             target: VisibilityTarget::FORMAT.into(),
-            constants: &constants,
+            constants: &self.constants_of(variant),
         }
         .with_stencil(gpu, phase.state())
     }

@@ -1,0 +1,87 @@
+// needs: map_visibility, silhouette_key
+// A map of depths whose texels are moved to where silhouettes are (Sen, Cammarano and
+// Hanrahan 2003).
+
+@group(2) @binding(0) var silhouettes: texture_depth_2d_array;
+@group(2) @binding(1) var plain: sampler;
+
+// A cell between four depths: which one, and where in it the receiver is.
+struct Cell {
+    number: vec2i,
+    place: vec2f,
+}
+
+// Corners of a cell: left and right above, left and right below.
+const CORNERS: array<vec2f, 4> = array(vec2f(0.0, 0.0), vec2f(1.0, 0.0), vec2f(0.0, 1.0), vec2f(1.0, 1.0));
+
+fn cell_of(point: MapPoint) -> Cell {
+    let number = floor(point.texel - 0.5);
+    return Cell(vec2i(number), point.texel - 0.5 - number);
+}
+
+// Whether the receiver is lit by what each corner of the cell holds, its plane continued to there.
+fn lit_at_corners(point: MapPoint, cell: Cell) -> vec4<bool> {
+    let middle = vec2f(cell.number + 1) / map.size;
+    let gathered = textureGather(map_depth, plain, middle, point.layer);
+    let corners = CORNERS;
+    return vec4<bool>(
+        is_lit(point, corners[0] - cell.place, depth_of(gathered.w, map.farthest)),
+        is_lit(point, corners[1] - cell.place, depth_of(gathered.z, map.farthest)),
+        is_lit(point, corners[2] - cell.place, depth_of(gathered.x, map.farthest)),
+        is_lit(point, corners[3] - cell.place, depth_of(gathered.y, map.farthest)),
+    );
+}
+
+// What the map of silhouettes has for a cell, nothing beyond its borders.
+fn key_at(number: vec2i, layer: u32) -> f32 {
+    let is_within = all(number >= vec2i(0)) && all(number < vec2i(i32(map.size)));
+    let key = textureLoad(silhouettes, clamp(number, vec2i(0), vec2i(i32(map.size) - 1)), layer, 0);
+    return select(0.0, key, is_within);
+}
+
+fn has_point(number: vec2i, layer: u32) -> bool {
+    return key_at(number, layer) != 0.0;
+}
+
+// The point of a cell beside, in this cell's own places.
+fn point_beside(cell: Cell, layer: u32, step: vec2i) -> vec2f {
+    return place_of(key_at(cell.number + step, layer)) + vec2f(step);
+}
+
+fn across(a: vec2f, b: vec2f) -> f32 {
+    return a.x * b.y - a.y * b.x;
+}
+
+// The corner whose part of the cell the receiver is in. Lines from the cell's own point to those of
+// its neighbours are what parts are divided by. Each part is two triangles: of the point, a
+// neighbour's point and the corner.
+fn part_of(cell: Cell, layer: u32) -> vec4<bool> {
+    let own = point_beside(cell, layer, vec2i(0));
+    let way = cell.place - own;
+    let corners = CORNERS;
+    // Around the point, starting at the left: to neighbours, and to the corners that follow them.
+    let beside = vec4f(
+        across(point_beside(cell, layer, vec2i(-1, 0)) - own, way),
+        across(point_beside(cell, layer, vec2i(0, -1)) - own, way),
+        across(point_beside(cell, layer, vec2i(1, 0)) - own, way),
+        across(point_beside(cell, layer, vec2i(0, 1)) - own, way),
+    );
+    let corner = vec4f(
+        across(corners[0] - own, way),
+        across(corners[1] - own, way),
+        across(corners[3] - own, way),
+        across(corners[2] - own, way),
+    );
+    let before = (beside >= vec4f(0.0)) & (corner < vec4f(0.0));
+    let behind = (corner >= vec4f(0.0)) & (beside.yzwx < vec4f(0.0));
+    return (before | behind).xywz;
+}
+
+fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
+    let cell = cell_of(point);
+    let lit = lit_at_corners(point, cell);
+    if all(lit) || !any(lit) {
+        return select(0.0, 1.0, lit.x);
+    }
+    return select(0.0, 1.0, any(lit & part_of(cell, point.layer)));
+}
