@@ -196,7 +196,8 @@ fn techniques_with_maps_shadow_posed_casters_on_the_smallest_devices() {
                 works += 1;
             }
             Err(error) => {
-                assert!(!info.family.has_maps(), "{}: {error}", info.id);
+                // Those that also draw edges of casters need more.
+                assert!(!info.family.has_maps() || declared(info) > 4, "{}: {error}", info.id);
                 assert!(names_what_is_lacking(&error.to_string()), "{}: {error}", info.id);
             }
         }

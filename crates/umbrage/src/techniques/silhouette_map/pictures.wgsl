@@ -50,7 +50,7 @@ fn picture(point: MapPoint, pixel: Pixel, at: vec4f) -> vec3f {
     let lit = lit_at_corners(point, cell_of(point));
     let is_silhouette = any(lit) && !all(lit) && !point.is_own_shadow;
     if PICTURE == PIXELS {
-        return select(under * select(1.0, 2.5, lit.x), vec3f(0.1, 0.9, 0.2), is_silhouette);
+        return select(under * select(1.0, 2.5, lit.x && !point.is_own_shadow), vec3f(0.1, 0.9, 0.2), is_silhouette);
     }
     return select(under, part(point, under), is_silhouette);
 }

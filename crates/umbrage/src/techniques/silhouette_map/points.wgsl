@@ -16,18 +16,17 @@ struct CellEdge {
 // side.
 const SNAPPED: f32 = 0.05;
 
-// Half the diagonal of a cell, with room for what is snapped: a quad that reaches so far around an
-// edge covers the middle of each cell that has a point of it.
-const AROUND: f32 = 1.0;
-
 @vertex
 fn corner(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32) -> CellEdge {
     let seen = layer_edge(contour_edge(vertex, group), 4.0);
     if !seen.is_seen {
         return CellEdge(OFF_LAYER, vec2f(0.0), vec2f(0.0), vec2f(0.0));
     }
+    // As far as the middles of cells can be that have a point of it, both along and across, and by
+    // how much its own corners may be snapped.
+    let around = (0.5 + SNAPPED) * (abs(seen.along.x) + abs(seen.along.y)) + SNAPPED;
     // The middle of a depth texel is a corner of four cells.
-    let at = quad_corner(seen, vertex, AROUND, AROUND) - 0.5;
+    let at = quad_corner(seen, vertex, around, around) - 0.5;
     return CellEdge(clip_of_texel(at, 0.5), seen.start - 0.5, seen.end - 0.5, seen.depth);
 }
 
