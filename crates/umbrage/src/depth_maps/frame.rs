@@ -44,7 +44,8 @@ impl MapFrame {
         self.views.first().is_some_and(LightView::is_perspective)
     }
 
-    /// Replaces the matrix that a map's view in `uniform` starts with, where it was made on the GPU.
+    /// Replaces the matrix that a map's view in `uniform` starts with, where it was made on the
+    /// GPU.
     pub(super) fn take_matrix(&self, passes: &mut Passes<'_>, layer: u32, uniform: &wgpu::Buffer) {
         const BYTES: u64 = size_of::<[[f32; 4]; 4]>() as u64;
         if let Some(matrices) = &self.matrices {

@@ -7,6 +7,7 @@ mod phases;
 mod pictures;
 mod steady;
 mod uniforms;
+mod variant;
 
 pub(super) use layer::MapLayer;
 pub(super) use pass::Lookup;

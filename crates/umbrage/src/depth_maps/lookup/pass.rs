@@ -4,8 +4,8 @@ use super::extent::is_round;
 use super::phases::{OpenPixels, Phase};
 use super::pictures::Pictures;
 use super::uniforms::MapLookup;
+use super::variant::Variant;
 use crate::depth_maps::frame::MapFrame;
-use crate::depth_maps::layers::Layers;
 use crate::depth_maps::setup::Blend;
 use crate::{
     fullscreen::{Fullscreen, UNIFORM, bind, layout},
@@ -40,20 +40,6 @@ pub(in crate::depth_maps) struct Lookup {
 
 /// The draws of a look-up, in order.
 type Draws = Vec<(Phase, wgpu::RenderPipeline)>;
-
-/// What pipelines are made for.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) struct Variant {
-    /// The light turns the same side to all.
-    round: bool,
-    perspective: bool,
-    warped: bool,
-    layout: Layers,
-    linear: bool,
-    has_normals: bool,
-    /// Splits stand still.
-    steady: bool,
-}
 
 impl Lookup {
     pub fn new(
@@ -213,17 +199,7 @@ impl Lookup {
     }
 
     fn constants_of(&self, variant: Variant) -> Vec<(&'static str, f64)> {
-        let mut constants = self.constants.clone();
-        let on = |switch: bool| if switch { 1.0 } else { 0.0 };
-        constants.push(("ROUND", on(variant.round)));
-        constants.push(("PERSPECTIVE", on(variant.perspective)));
-        constants.push(("WARPED", on(variant.warped)));
-        constants.push(("LAYOUT", variant.layout.number()));
-        constants.push(("LAYERS", f64::from(variant.layout.count())));
-        constants.push(("STEADY", on(variant.steady)));
-        constants.push(("LINEAR", on(variant.linear)));
-        constants.push(("HAS_NORMALS", on(variant.has_normals)));
-        constants
+        [&self.constants[..], &variant.constants()].concat()
     }
 
     fn pipeline(&self, gpu: &Gpu, variant: Variant, phase: Phase) -> wgpu::RenderPipeline {

@@ -1,6 +1,6 @@
 //! Pictures of what a look-up finds, drawn over the scene when somebody looks at one.
 
-use super::pass::Variant;
+use super::variant::Variant;
 use crate::fullscreen::{Fullscreen, attachment, target_texture};
 use crate::technique::DebugView;
 use crate::{gpu::Gpu, passes::Passes, shader::Shader};
