@@ -34,6 +34,11 @@ impl Frustum {
         Self::bounded_by(self.planes)
     }
 
+    /// With every plane `margin` farther out.
+    pub fn grown(&self, margin: f64) -> Self {
+        Self::bounded_by(self.planes.iter().map(|plane| *plane + DVec4::W * margin).collect())
+    }
+
     /// Inside of all these planes, unit normals with the offset in `w`.
     pub(crate) fn bounded_by(planes: Vec<DVec4>) -> Self {
         let corners = corners(&planes);

@@ -9,6 +9,7 @@ mod frame;
 mod layers;
 mod lookup;
 mod nearest;
+mod point_maps;
 mod setup;
 mod stages;
 mod technique;
@@ -19,6 +20,8 @@ pub use draw::{CasterPass, EdgeDraw, EdgePass, EdgeTarget};
 pub use frame::MapFrame;
 
 pub use layers::{LAYER_NAMES, Layers, MOST_LAYERS};
+pub(crate) use lookup::Lookup;
+pub(crate) use point_maps::PointMaps;
 pub use setup::{
     Blend, Cover, Covers, Depth, Faces, Fitting, Kernel, Layout, Map, MapSetup, Softness, Splits, Storage,
 };

@@ -4,7 +4,7 @@ use super::draw::Drawer;
 use super::fit::{Fitter, Views};
 use super::frame::MapFrame;
 use super::layers::{LAYER_NAMES, Layers};
-use super::lookup::Lookup;
+use super::lookup::{Lookup, LookupInput};
 use super::setup::{Depth, Faces, MapSetup};
 use super::stages::{SplitFitter, Stage};
 use crate::{
@@ -31,6 +31,7 @@ pub struct MapTechnique {
     fitter: Option<SplitFitter>,
     stage: Option<Box<dyn Stage>>,
     lookup: Lookup,
+    input: LookupInput,
     draws: u32,
     /// Bytes of the maps that a look-up reads, where the technique has said.
     texel_bytes: Option<u64>,
@@ -65,15 +66,17 @@ impl MapTechnique {
         gpu.check_size("a shadow map", size, size)?;
         let fit = Fitter::new(Views::of(setup));
         let more = stage.as_ref().map(|s| s.layout().clone());
-        let lookup = Lookup::new(gpu, shader, bias, fit.choice.blend(), constants, more);
+        let lookup = Lookup::new(gpu, shader, fit.choice.blend(), constants, more);
+        let input = LookupInput::new(gpu, bias);
         Ok(Self {
             setup: *setup,
             frame: MapFrame { size, border_texels: reach_texels + 1.0, ..MapFrame::default() },
-            fitter: fit.choice.is_fitted_to_depth().then(|| SplitFitter::new(gpu, lookup.uniforms())),
+            fitter: fit.choice.is_fitted_to_depth().then(|| SplitFitter::new(gpu, input.uniforms())),
             draw: Drawer::new(gpu, faces == Faces::Back, faces == Faces::Midpoint, caches(setup, &fit.choice)),
             fit,
             stage,
             lookup,
+            input,
             draws: 0,
             texel_bytes: None,
         })
@@ -136,7 +139,7 @@ impl Technique for MapTechnique {
         if let Some(stage) = &mut self.stage {
             stage.prepare(gpu, view, &self.frame)?;
         }
-        self.lookup.prepare(gpu, view, &self.frame);
+        self.lookup.prepare(gpu, view, &self.frame, &mut self.input);
         if let (Some(fitter), Some(cascades)) = (&mut self.fitter, self.fit.choice.cascades()) {
             fitter.prepare(view, &self.frame, cascades);
         }
@@ -145,7 +148,7 @@ impl Technique for MapTechnique {
 
     fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
         visibility.check(view.receivers)?;
-        self.lookup.upload(passes);
+        self.input.upload(passes);
         if let Some(fitter) = self.fitter.as_ref().filter(|_| self.frame.matrices.is_some()) {
             fitter.record(passes, view.receivers);
         }
@@ -155,7 +158,7 @@ impl Technique for MapTechnique {
             self.draws += stage.record(passes, &self.frame, view.casters);
             more = stage.bind_group();
         }
-        self.draws += self.lookup.record(passes, view.receivers, more, visibility);
+        self.draws += self.lookup.record(passes, view.receivers, &self.input, more, visibility);
         Ok(())
     }
 
@@ -164,7 +167,7 @@ impl Technique for MapTechnique {
         gpu.check_size("a shadow map", setup.size, setup.size)?;
         self.fit.choice = Views::of(&setup);
         self.draw.set_cache(caches(&setup, &self.fit.choice));
-        self.lookup.set_bias(setup.bias);
+        self.input.set_bias(setup.bias);
         self.frame.size = setup.size;
         self.setup = setup;
         Ok(true)
@@ -189,7 +192,8 @@ impl Inside for MapTechnique {
         stats.draws = self.draws;
         stats.triangles += 1;
         stats.bytes += self.fitter.as_ref().map_or(0, SplitFitter::bytes);
-        stats.bytes += self.lookup.bytes() + self.stage.as_ref().map_or(0, |s| s.bytes());
+        stats.bytes +=
+            self.lookup.bytes() + self.input.uniforms().size() + self.stage.as_ref().map_or(0, |s| s.bytes());
         stats
     }
 

@@ -28,6 +28,7 @@ techniques![
     psm,
     lispsm,
     plane_optimal,
+    linear_light,
     volume,
     wedges,
     light_mask,

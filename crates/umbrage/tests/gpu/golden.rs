@@ -66,6 +66,9 @@ const GOLDEN: &[Row] = &[
     ("duelling-frusta", 1.0, 0, "plane-optimal", "", 58.0, 99.95),
     ("lantern", 1.0, 0, "psm", "", 22.0, 99.95),
     ("atrium", 0.3, 0, "psm", "", 49.0, 99.9),
+    // Hard from its centre, as every light is that is not a line.
+    ("primitives", 1.0, 0, "linear-light", "size=2048", 3.3, 99.95),
+    ("lantern", 1.0, 0, "linear-light", "size=2048", 10.0, 99.95),
     // Exact but for pixels that rounding decides: two of them. Terrain is left out, its leaves cast
     // whole quads.
     ("primitives", 1.0, 0, "volume", "", 0.3, 100.0),

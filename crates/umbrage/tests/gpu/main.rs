@@ -12,6 +12,7 @@ mod host;
 mod layouts;
 mod light_mask;
 mod limits;
+mod linear_light;
 mod masks;
 mod outside;
 mod own_maps;

@@ -7,7 +7,7 @@ use super::frame::MapFrame;
 use crate::view::View;
 use border::light_border;
 use umbrage_core::light_view::{FitScene, Focus};
-use umbrage_core::{glam::DVec3, scene_tree::Sphere};
+use umbrage_core::{Bounds, glam::DVec3, scene_tree::Sphere};
 pub(super) use views::Views;
 
 /// Fits views to what there is in each frame.
@@ -15,6 +15,9 @@ pub(super) struct Fitter {
     pub choice: Views,
     /// Keeps room for the light's extent.
     pub soft: bool,
+    /// How far apart the points of the light are whose shadows end on each other's maps, metres;
+    /// 0 where there is one.
+    pub apart_m: f64,
     /// Whose boxes those of the casters are, and when: the buffer of their instances and
     /// [`crate::casters::Moves::now`].
     scene_of: Option<(wgpu::Buffer, u64)>,
@@ -27,7 +30,7 @@ const EVERYWHERE: Sphere = Sphere { center: DVec3::ZERO, radius: f64::INFINITY }
 
 impl Fitter {
     pub fn new(choice: Views) -> Self {
-        Self { choice, soft: false, scene_of: None }
+        Self { choice, soft: false, apart_m: 0.0, scene_of: None }
     }
 
     /// Chooses the views of this frame; none where there is no light or nothing to cast a shadow.
@@ -60,11 +63,26 @@ impl Fitter {
             view.casters.casting().cut(&EVERYWHERE, MOST_BOXES, casters);
             self.scene_of = Some((view.casters.instances.clone(), now));
         }
+        self.choice.margin_m = margin(view, casters, self.apart_m);
         receivers.clear();
         let receiving = view.casters.receiving();
         match self.choice.focus() {
             Focus::Light => receiving.cut(&EVERYWHERE, MOST_BOXES, receivers),
-            Focus::Visible => receiving.cut(&view.camera.frustum(), MOST_BOXES, receivers),
+            Focus::Visible => receiving.cut(&self.choice.seen(view), MOST_BOXES, receivers),
         }
     }
+}
+
+/// How far the shadow of a blocker may move on a receiver while the light moves by `apart_m`: as
+/// much farther as the receiver is behind the nearest caster, and no farther than the scene is
+/// wide.
+fn margin(view: &View<'_>, casters: &[Bounds], apart_m: f64) -> f64 {
+    let (light, seen) = (view.light.shape.center(), view.seen());
+    if apart_m == 0.0 || light.w == 0.0 || seen.is_empty() {
+        return 0.0;
+    }
+    let light = light.truncate();
+    let nearest = casters.iter().map(|b| light.distance(light.clamp(b.min, b.max))).fold(f64::INFINITY, f64::min);
+    let farthest = seen.corners().iter().map(|c| light.distance(*c)).fold(0.0, f64::max);
+    (apart_m * (farthest / nearest - 1.0).max(0.0)).min(view.casters.all_bounds().size().length())
 }

@@ -4,6 +4,7 @@ use crate::depth_maps::frame::MapFrame;
 use crate::depth_maps::layers::Layers;
 use crate::depth_maps::setup::{Blend, Fitting, MapSetup, Softness, Splits};
 use crate::view::View;
+use umbrage_core::Frustum;
 use umbrage_core::light_view::{Cascades, Cover, Fit, Focus, LightView, Omni, Warp, fit, fit_cascades, fit_warped};
 
 /// How views are chosen.
@@ -18,6 +19,8 @@ pub(in crate::depth_maps) struct Views {
     /// Radius of filters, metres; 0 where it is in texels.
     softness_m: f64,
     depth_fit: bool,
+    /// How far beyond what the camera sees receivers are covered besides, metres.
+    pub margin_m: f64,
 }
 
 /// Borders of steady views are whole multiples of so many texels: soft ones would change in every
@@ -34,6 +37,7 @@ impl Views {
             blend: Blend::Off,
             softness_m: if let Softness::Metres(radius) = setup.softness { radius } else { 0.0 },
             depth_fit: false,
+            margin_m: 0.0,
         };
         match setup.fitting {
             Fitting::One { focus, omni } => Self { focus, omni, ..none },
@@ -42,6 +46,12 @@ impl Views {
             }
             Fitting::Warp(warp) => Self { warp: Some(warp), ..none },
         }
+    }
+
+    /// The volume that has to be covered with [`Focus::Visible`].
+    pub fn seen(&self, view: &View<'_>) -> Frustum {
+        let frustum = view.camera.frustum();
+        if self.margin_m > 0.0 { frustum.grown(self.margin_m) } else { frustum }
     }
 
     /// What the light's maps cover.
@@ -93,7 +103,7 @@ impl Views {
             return;
         }
         let Some(cascades) = &self.cascades else {
-            frame.layers = fit(light, &camera.frustum(), &frame.scene, &to_fit, views).into();
+            frame.layers = fit(light, &self.seen(view), &frame.scene, &to_fit, views).into();
             return;
         };
         if let Cover::Steady { .. } = cascades.cover {

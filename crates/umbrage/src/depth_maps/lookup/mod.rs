@@ -10,5 +10,5 @@ mod uniforms;
 mod variant;
 
 pub(super) use layer::MapLayer;
-pub(super) use pass::Lookup;
+pub(crate) use pass::{Lookup, LookupInput};
 pub(super) use uniforms::SHARED;

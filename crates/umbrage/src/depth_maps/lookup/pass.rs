@@ -18,24 +18,32 @@ use crate::{
     visibility::VisibilityTarget,
 };
 
-/// Pipelines (one for each combination that came up) and the uniforms of the pass.
-pub(in crate::depth_maps) struct Lookup {
+/// Pipelines, one for each combination that came up.
+pub(crate) struct Lookup {
     module: wgpu::ShaderModule,
     constants: Vec<(&'static str, f64)>,
-    bias: f64,
     layout: wgpu::BindGroupLayout,
     /// Layout of what the technique binds besides, as group 2.
     more: Option<wgpu::BindGroupLayout>,
+    /// The fragment shader in place of those of the phases.
+    entry: Option<&'static str>,
+    target: wgpu::ColorTargetState,
     pipelines: Vec<(Variant, Draws)>,
     /// The shader has a `quick_share`, see `map_quick.wgsl`.
     is_quick: bool,
     open: OpenPixels,
+    sampler: wgpu::Sampler,
+    pictures: Option<Pictures>,
+}
+
+/// What a look-up reads: the maps of a light and the uniforms that go with them.
+pub(crate) struct LookupInput {
+    bias: f64,
     uniforms: wgpu::Buffer,
     data: MapLookup,
-    sampler: wgpu::Sampler,
     bind_group: Option<(wgpu::Texture, wgpu::BindGroup)>,
+    /// Number of the pipelines; `None` where there is nothing to look up.
     current: Option<usize>,
-    pictures: Option<Pictures>,
 }
 
 /// The draws of a look-up, in order.
@@ -45,7 +53,6 @@ impl Lookup {
     pub fn new(
         gpu: &Gpu,
         shader: &Shader,
-        bias: f64,
         blend: Blend,
         constants: &[(&'static str, f64)],
         more: Option<wgpu::BindGroupLayout>,
@@ -53,18 +60,13 @@ impl Lookup {
         Self {
             module: shader.module(gpu),
             constants: [constants, &[("BLEND", blend.number())]].concat(),
-            bias,
             layout: lookup_layout(gpu),
             more,
+            entry: None,
+            target: VisibilityTarget::FORMAT.into(),
             pipelines: Vec::new(),
             is_quick: false,
             open: OpenPixels::default(),
-            uniforms: gpu.buffer(
-                "map lookup",
-                &[MapLookup::default()],
-                wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
-            ),
-            data: MapLookup::default(),
             sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some("map compare"),
                 mag_filter: wgpu::FilterMode::Linear,
@@ -72,8 +74,6 @@ impl Lookup {
                 compare: Some(wgpu::CompareFunction::GreaterEqual),
                 ..Default::default()
             }),
-            bind_group: None,
-            current: None,
             pictures: None,
         }
     }
@@ -93,20 +93,22 @@ impl Lookup {
         self.pictures.as_ref().and_then(Pictures::view)
     }
 
-    /// Multiplies the automatic bias from the next frame on.
-    pub fn set_bias(&mut self, bias: f64) {
-        self.bias = bias;
-    }
-
     /// Looks up in two phases; the shader has a `quick_share`, see `map_quick.wgsl`.
     pub fn in_phases(&mut self) {
         self.is_quick = true;
     }
 
-    pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &MapFrame) {
-        self.choose(gpu, view, maps);
+    /// By another fragment shader, `entry`, whose target has another format.
+    pub fn into(mut self, entry: &'static str, format: wgpu::TextureFormat) -> Self {
+        (self.entry, self.target) = (Some(entry), format.into());
+        self
+    }
+
+    /// Makes ready for the maps of this frame.
+    pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &MapFrame, input: &mut LookupInput) {
+        self.choose(gpu, view, maps, input);
         if let Some(mut pictures) = self.pictures.take() {
-            let variant = self.current.map(|current| self.pipelines[current].0);
+            let variant = input.current.map(|current| self.pipelines[current].0);
             let constants = variant.map_or_else(Vec::new, |variant| self.constants_of(variant));
             let receivers = Receivers::layout(gpu);
             pictures.prepare(gpu, variant, &self.groups(&receivers), &constants, view.receivers.size);
@@ -115,10 +117,10 @@ impl Lookup {
     }
 
     /// Chooses the pipelines of this frame.
-    fn choose(&mut self, gpu: &Gpu, view: &View<'_>, maps: &MapFrame) {
-        self.current = None;
+    fn choose(&mut self, gpu: &Gpu, view: &View<'_>, maps: &MapFrame, input: &mut LookupInput) {
+        input.current = None;
         let Some(texture) = maps.texture.as_ref().filter(|_| !maps.views.is_empty()) else { return };
-        self.data = MapLookup::new(view, maps, self.bias);
+        input.data = MapLookup::new(view, maps, input.bias);
         let perspective = maps.is_from_a_point();
         let linear = maps.is_linear;
         let round = is_round(&view.light.shape);
@@ -127,26 +129,16 @@ impl Lookup {
         let steady = maps.views.iter().any(|v| v.steady_border.is_some());
         let variant = Variant { round, perspective, warped, layout: maps.layers, linear, has_normals, steady };
         let known = self.pipelines.iter().position(|(v, _)| *v == variant);
-        self.current = Some(known.unwrap_or_else(|| {
+        input.current = Some(known.unwrap_or_else(|| {
             self.pipelines.push((variant, self.draws_of(gpu, variant)));
             self.pipelines.len() - 1
         }));
         if self.phases().len() > 1 {
             self.open.prepare(gpu, view.receivers.size);
         }
-        if self.bind_group.as_ref().is_none_or(|(t, _)| t != texture) {
-            self.bind_group = Some((texture.clone(), self.bind(gpu, texture)));
+        if input.bind_group.as_ref().is_none_or(|(t, _)| t != texture) {
+            input.bind_group = Some((texture.clone(), self.bind(gpu, texture, &input.uniforms)));
         }
-    }
-
-    /// The uniforms of [`MapLookup`].
-    pub fn uniforms(&self) -> &wgpu::Buffer {
-        &self.uniforms
-    }
-
-    /// Before [`Lookup::record`].
-    pub fn upload(&self, passes: &mut Passes<'_>) {
-        passes.upload(&self.uniforms, bytemuck::bytes_of(&self.data));
     }
 
     /// Writes 1 everywhere where there is nothing to look up. `more` is what the technique binds as
@@ -155,34 +147,51 @@ impl Lookup {
         &self,
         passes: &mut Passes<'_>,
         receivers: &Receivers,
+        input: &LookupInput,
         more: Option<&wgpu::BindGroup>,
         visibility: &VisibilityTarget,
     ) -> u32 {
-        let draws = self.current.map_or(&[][..], |current| &self.pipelines[current].1);
-        let open = if draws.len() > 1 { self.open.attachment() } else { None };
+        let open = if self.draws(input).len() > 1 { self.open.attachment() } else { None };
         let mut pass = passes.render("visibility", &[visibility.overwrite()], open);
-        if let Some((_, bind_group)) = &self.bind_group {
-            pass.set_bind_group(0, &receivers.bind_group, &[]);
-            pass.set_bind_group(1, bind_group, &[]);
-            if more.is_some() {
-                pass.set_bind_group(2, more, &[]);
-            }
-            for (phase, pipeline) in draws {
-                pass.set_pipeline(pipeline);
-                pass.set_stencil_reference(phase.reference());
-                pass.draw(0..3, 0..1);
-            }
-        }
+        let draws = self.draw(&mut pass, receivers, input, more);
         drop(pass);
         if let Some(pictures) = &self.pictures {
-            let own = self.bind_group.as_ref().map(|(_, bind_group)| bind_group);
+            let own = input.bind_group.as_ref().map(|(_, bind_group)| bind_group);
             pictures.record(passes, [Some(&receivers.bind_group), own, more]);
+        }
+        draws
+    }
+
+    /// The draws of [`Lookup::record`] in a pass that has begun. Nothing where there is nothing to
+    /// look up.
+    pub fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        receivers: &Receivers,
+        input: &LookupInput,
+        more: Option<&wgpu::BindGroup>,
+    ) -> u32 {
+        let draws = self.draws(input);
+        let Some((_, bind_group)) = input.bind_group.as_ref().filter(|_| !draws.is_empty()) else { return 0 };
+        pass.set_bind_group(0, &receivers.bind_group, &[]);
+        pass.set_bind_group(1, bind_group, &[]);
+        if more.is_some() {
+            pass.set_bind_group(2, more, &[]);
+        }
+        for (phase, pipeline) in draws {
+            pass.set_pipeline(pipeline);
+            pass.set_stencil_reference(phase.reference());
+            pass.draw(0..3, 0..1);
         }
         draws.len() as u32
     }
 
+    fn draws(&self, input: &LookupInput) -> &[(Phase, wgpu::RenderPipeline)] {
+        input.current.and_then(|current| self.pipelines.get(current)).map_or(&[], |(_, draws)| draws)
+    }
+
     pub fn bytes(&self) -> u64 {
-        self.uniforms.size() + self.open.bytes() + self.pictures.as_ref().map_or(0, Pictures::bytes)
+        self.open.bytes() + self.pictures.as_ref().map_or(0, Pictures::bytes)
     }
 
     fn draws_of(&self, gpu: &Gpu, variant: Variant) -> Draws {
@@ -207,25 +216,54 @@ impl Lookup {
         Fullscreen {
             label: "map lookup",
             module: &self.module,
-            entry: phase.entry(),
+            entry: self.entry.unwrap_or(phase.entry()),
             groups: &self.groups(&receivers),
-            target: VisibilityTarget::FORMAT.into(),
+            target: self.target.clone(),
             constants: &self.constants_of(variant),
         }
         .with_stencil(gpu, phase.state())
     }
 
-    fn bind(&self, gpu: &Gpu, maps: &wgpu::Texture) -> wgpu::BindGroup {
+    fn bind(&self, gpu: &Gpu, maps: &wgpu::Texture, uniforms: &wgpu::Buffer) -> wgpu::BindGroup {
         let view = maps.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()
         });
         let resources = [
-            self.uniforms.as_entire_binding(),
+            uniforms.as_entire_binding(),
             wgpu::BindingResource::TextureView(&view),
             wgpu::BindingResource::Sampler(&self.sampler),
         ];
         bind(gpu, "map lookup", &self.layout, &resources)
+    }
+}
+
+impl LookupInput {
+    /// `bias` multiplies the automatic one.
+    pub fn new(gpu: &Gpu, bias: f64) -> Self {
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+        Self {
+            bias,
+            uniforms: gpu.buffer("map lookup", &[MapLookup::default()], usage),
+            data: MapLookup::default(),
+            bind_group: None,
+            current: None,
+        }
+    }
+
+    /// Multiplies the automatic bias from the next frame on.
+    pub fn set_bias(&mut self, bias: f64) {
+        self.bias = bias;
+    }
+
+    /// The uniforms of [`MapLookup`].
+    pub fn uniforms(&self) -> &wgpu::Buffer {
+        &self.uniforms
+    }
+
+    /// Before the look-up is recorded.
+    pub fn upload(&self, passes: &mut Passes<'_>) {
+        passes.upload(&self.uniforms, bytemuck::bytes_of(&self.data));
     }
 }
 

@@ -1,0 +1,167 @@
+//! The frame: maps of every point, steps in them, skins, and the look-ups that add up.
+
+use super::borders::{Borders, Job, neighbours};
+use super::light::points;
+use super::lookup::Pipelines;
+use super::options;
+use super::point::Point;
+use super::uniform::{LightPoint, PointLookup, VIEWS};
+use crate::technique::{DebugView, Inside, Stats, Technique};
+use crate::{Error, Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+use umbrage_core::light_view::LightView;
+use umbrage_core::{Light, LightShape};
+
+/// Maps of the light's first point, and for each texel its share of the piece to the next one.
+pub(super) const NAMES: &[&str] = &[
+    "map-0", "map-1", "map-2", "map-3", "map-4", "map-5", "shares-0", "shares-1", "shares-2", "shares-3", "shares-4",
+    "shares-5",
+];
+
+/// See the module above.
+pub(super) struct LinearLight {
+    settings: options::LinearLight,
+    borders: Borders,
+    pipelines: Pipelines,
+    /// The points of the light.
+    shapes: Vec<LightShape>,
+    points: Vec<Point>,
+    draws: u32,
+}
+
+impl LinearLight {
+    pub fn new(gpu: &Gpu, settings: &options::LinearLight) -> Result<Self, Error> {
+        gpu.check_size("a shadow map", settings.size, settings.size)?;
+        Ok(Self {
+            settings: settings.clone(),
+            borders: Borders::new(gpu, settings),
+            pipelines: Pipelines::new(gpu),
+            shapes: Vec::new(),
+            points: Vec::new(),
+            draws: 0,
+        })
+    }
+
+    /// What shaders read of each point.
+    fn place(&mut self, view: &View<'_>) {
+        let places: Vec<_> = self.shapes.iter().map(|shape| shape.center().truncate()).collect();
+        let threshold = self.settings.threshold;
+        let (origin, receivers) = (view.casters.origin(), view.casters.receivers_bounds());
+        for (i, point) in self.points.iter_mut().enumerate() {
+            let frame = point.maps.frame();
+            point.data = LightPoint::of(&frame.views, frame.size, places[i], origin, &receivers);
+            let from_eye = neighbours(i, places.len()).map(|j| places[j] - view.camera.eye);
+            point.look_up_data =
+                PointLookup::of(places[i] - view.camera.eye, from_eye, frame.layers.count(), threshold);
+        }
+    }
+
+    /// Draws skins where either of two neighbours has new maps.
+    fn record_shares(&mut self, passes: &mut Passes<'_>, view: &View<'_>) -> u32 {
+        let count = self.points.len();
+        if count < 2 {
+            return 0;
+        }
+        let new: Vec<bool> = self.points.iter().map(Point::is_new).collect();
+        self.borders.find(passes, self.points.iter().zip(&new).filter(|(_, new)| **new).map(|(point, _)| point));
+        let mut draws = 0;
+        for (i, target) in self.points.iter().enumerate() {
+            let Some(made) = target.made() else { continue };
+            for (k, (channel, j)) in made.channels.iter().zip(neighbours(i, count)).enumerate() {
+                if !new[i] && !new[j] {
+                    continue;
+                }
+                let [here, there] = [i, j].map(|k| self.shapes[k].center().truncate());
+                let (edges, other) = (target.edges.get(k), self.points[j].made());
+                let job = Job { target, channel, edges, other, to_other: there - here };
+                draws += self.borders.record(passes, view, &job);
+            }
+        }
+        for (point, new) in self.points.iter_mut().zip(new) {
+            if new {
+                point.take();
+            }
+        }
+        draws
+    }
+}
+
+impl Technique for LinearLight {
+    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
+        let apart_m = points(&view.light.shape, self.settings.samples, &mut self.shapes);
+        let setup = self.settings.setup();
+        self.points.truncate(self.shapes.len());
+        self.points.resize_with(self.shapes.len(), || Point::new(gpu, &setup));
+        let count = self.points.len();
+        if count > 1 {
+            self.pipelines.make_room(gpu, view.receivers.size);
+        }
+        for (i, (point, shape)) in self.points.iter_mut().zip(&self.shapes).enumerate() {
+            let light = Light { shape: shape.clone(), ..view.light.clone() };
+            let seen = View { light: &light, ..*view };
+            let lookup = if count > 1 { &mut self.pipelines.shares } else { &mut self.pipelines.alone };
+            point.maps.prepare(gpu, &seen, apart_m, lookup);
+            point.make_room(gpu, &self.borders, &self.pipelines, neighbours(i, count).count());
+        }
+        self.place(view);
+        if count > 1 {
+            self.borders.prepare(gpu, view, &self.shapes, &mut self.points)?;
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+        visibility.check(view.receivers)?;
+        self.draws = 0;
+        for point in &mut self.points {
+            passes.upload(&point.uniform, bytemuck::bytes_of(&point.data));
+            passes.upload(&point.look_up_uniform, bytemuck::bytes_of(&point.look_up_data));
+            self.draws += point.maps.record(passes, view.casters);
+        }
+        self.draws += self.record_shares(passes, view);
+        self.draws += self.pipelines.record(passes, view.receivers, &self.points, visibility);
+        Ok(())
+    }
+
+    fn inside(&self) -> &dyn Inside {
+        self
+    }
+
+    fn inside_mut(&mut self) -> &mut dyn Inside {
+        self
+    }
+}
+
+impl Inside for LinearLight {
+    fn forget(&mut self) {
+        self.points.iter_mut().for_each(Point::forget);
+    }
+
+    fn stats(&self) -> Stats {
+        let mut stats = Stats { bytes: self.borders.bytes() + self.pipelines.bytes(), ..Stats::default() };
+        for point in &self.points {
+            let of_maps = point.maps.stats();
+            stats.triangles += of_maps.triangles + 1;
+            stats.casters_drawn += of_maps.casters_drawn;
+            stats.casters_culled += of_maps.casters_culled;
+            stats.bytes += point.bytes();
+        }
+        stats.draws = self.draws;
+        stats
+    }
+
+    fn light_views(&self) -> &[LightView] {
+        self.points.first().map_or(&[], |point| &point.maps.frame().views)
+    }
+
+    fn debug_views(&self) -> Vec<DebugView<'_>> {
+        let Some(first) = self.points.first() else { return Vec::new() };
+        let Some(texture) = &first.maps.frame().texture else { return Vec::new() };
+        let maps = first.layers().map(|layer| DebugView { name: NAMES[layer as usize % VIEWS], texture, layer });
+        let shares = first.made().filter(|_| self.points.len() > 1).map(|made| &made.shares);
+        let of_shares = |texture| {
+            let named = move |layer| DebugView { name: NAMES[VIEWS + layer as usize % VIEWS], texture, layer };
+            first.layers().map(named)
+        };
+        maps.chain(shares.into_iter().flat_map(of_shares)).collect()
+    }
+}
