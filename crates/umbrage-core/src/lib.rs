@@ -25,6 +25,7 @@ pub mod light_view;
 pub mod material;
 pub mod mesh;
 pub mod mesh_check;
+pub mod precision;
 pub mod primitive;
 pub mod rig;
 pub mod sampling;

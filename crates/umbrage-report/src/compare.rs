@@ -9,7 +9,7 @@ use crate::{
     output::Folder,
     pictures::Pictures,
     progress::Progress,
-    record::{LightRecord, Report, SCHEMA, SceneRecord},
+    record::{LightRecord, Report, ResultRecord, SCHEMA, SceneRecord},
     source::Source,
     stage::{Stage, check_choices},
     truth::{Tracing, size_of},
@@ -101,6 +101,8 @@ impl Run<'_> {
             let place = format!("{number}-{}-light{light}", source.stem());
             records.push(self.light(&mut stage, source, light, &tracing, &place)?);
         }
+        let coarse = coarse_maps(&records);
+        coarse.iter().for_each(|note| self.progress.note(&format!("{}: {note}", scene.name)));
         Ok(SceneRecord {
             name: scene.name.clone(),
             source: source.asked.clone(),
@@ -108,7 +110,7 @@ impl Run<'_> {
             height,
             triangles: scene.triangle_count(),
             instances: scene.instances.len(),
-            notes: source.notes.clone(),
+            notes: source.notes.iter().cloned().chain(coarse).collect(),
             lights: records,
         })
     }
@@ -139,6 +141,27 @@ impl Run<'_> {
     }
 }
 
+/// Pixels that half of all texels cover at least where a map cannot do a scene: its shadows are
+/// blocks, and objects smaller than them have none.
+const COARSE_PIXELS: f64 = 16.0;
+
+/// A note on each light's maps that are too coarse for the scene.
+fn coarse_maps(lights: &[LightRecord]) -> Vec<String> {
+    let of = |light: &LightRecord| {
+        let median =
+            |result: &ResultRecord| result.aliasing.map(|aliasing| (result.technique.clone(), aliasing.median));
+        let mut coarse = light.results.iter().filter_map(median).filter(|(_, pixels)| *pixels > COARSE_PIXELS);
+        let (technique, pixels) = coarse.next()?;
+        let others = if coarse.next().is_some() { " and others" } else { "" };
+        Some(format!(
+            "light {}: half of the texels of {technique}{others} cover {pixels:.0} pixels or more; `cascaded`, a warp \
+             (`psm`, `lispsm`, `plane-optimal`) or a larger `size` suit such a scene",
+            light.light
+        ))
+    };
+    lights.iter().filter_map(of).collect()
+}
+
 impl Outcome {
     /// Writes `report.json`, `index.html` and the pictures.
     ///
@@ -157,5 +180,22 @@ impl Outcome {
     /// The text of `report.json`.
     pub fn json(&self) -> String {
         crate::json(&self.report)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::coarse_maps;
+    use crate::{fixture::fixture, record::AliasingRecord};
+
+    #[test]
+    fn maps_too_coarse_for_a_scene_are_named_once_a_light() {
+        let mut lights = fixture().scenes.remove(0).lights;
+        assert!(coarse_maps(&lights).is_empty());
+        for result in &mut lights[0].results {
+            result.aliasing = Some(AliasingRecord { median: 40.0, p95: 90.0, p99: f64::INFINITY });
+        }
+        let notes = coarse_maps(&lights);
+        assert!(notes.len() == 1 && notes[0].contains("40 pixels") && notes[0].contains("cascaded"), "{notes:?}");
     }
 }

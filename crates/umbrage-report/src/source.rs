@@ -27,12 +27,13 @@ impl Source {
         let path = Path::new(asked);
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let is_file = path.is_file() || EXTENSIONS.contains(&extension.as_str()) || asked.contains(['/', '\\']);
-        let (scene, notes) = if is_file {
+        let (scene, mut notes) = if is_file {
             let opened = umbrage_io::open(path)?;
             (opened.scene, opened.notes)
         } else {
             (built_in(asked)?, Vec::new())
         };
+        notes.extend(umbrage_core::precision::notes(&scene));
         Ok(Self { asked: asked.into(), scene, notes })
     }
 
