@@ -33,7 +33,7 @@ pub(crate) struct Form {
     /// A place (w = 1) or a direction (w = 0), in world space.
     pub center: DVec4,
     /// Takes differences of places to light space, see `area_light.wgsl`.
-    pub(super) to_light: DMat3,
+    pub to_light: DMat3,
     /// Its hull there.
     pub(super) corners: [DVec3; 4],
     pub(super) radius: f64,

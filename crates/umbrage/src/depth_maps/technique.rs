@@ -217,6 +217,9 @@ impl Inside for MapTechnique {
 
     fn inspect(&mut self, view: Option<&str>) {
         self.lookup.inspect(view);
+        if let Some(stage) = &mut self.stage {
+            stage.inspect(view);
+        }
     }
 
     fn debug_views(&self) -> Vec<DebugView<'_>> {

@@ -29,6 +29,7 @@ techniques![
     lispsm,
     plane_optimal,
     linear_light,
+    smoothies,
     volume,
     wedges,
     light_mask,

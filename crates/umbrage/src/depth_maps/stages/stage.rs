@@ -37,6 +37,9 @@ pub trait Stage: wgpu::WasmNotSend {
         None
     }
 
+    /// As [`crate::Inside::inspect`].
+    fn inspect(&mut self, _view: Option<&str>) {}
+
     /// Pictures of what is inside.
     fn debug_views(&self) -> Vec<DebugView<'_>> {
         Vec::new()
