@@ -19,7 +19,7 @@ fn filters() -> impl Iterator<Item = &'static TechniqueInfo> {
 
 /// Those that make penumbrae as wide as the light does, and none where it has no width; with their
 /// settings.
-const FOLLOW_THE_LIGHT: [(&str, &str); 2] = [("pcss", ""), ("pcss-jitter", "")];
+const FOLLOW_THE_LIGHT: [(&str, &str); 3] = [("pcss", ""), ("pcss-jitter", ""), ("smoothies", "samples=1")];
 
 /// All techniques with maps as they are by themselves, and those that can follow the light doing
 /// so.

@@ -23,6 +23,7 @@ mod rasterisers;
 mod robust;
 mod settings;
 mod shared_references;
+mod smoothies;
 mod solids;
 mod steady;
 mod touched;

@@ -3,6 +3,7 @@
 use crate::common::{gpu, pairs, visibility};
 use std::f64::consts::FRAC_PI_2;
 use umbrage::core::glam::{DAffine3, DMat3, DVec2, DVec3};
+use umbrage::core::light_view::LightView;
 use umbrage::core::{Camera, Light, LightShape, Material, Scene, primitive};
 use umbrage::{Gpu, Technique, find, light_samples};
 use umbrage_reference::closed_form::{disc_above_plane, past_half_plane, rect_above_plane, sphere_above_plane};
@@ -23,11 +24,11 @@ const TOLERANCE: f64 = 0.1;
 
 /// A light over a half-plane over a floor. The edge is on the line x = 0, y = `height`, the
 /// half-plane at x < 0, all turned around the vertical by `turn` radians with the light.
-struct Case {
-    name: String,
-    light: LightShape,
-    height: f64,
-    turn: f64,
+pub struct Case {
+    pub name: String,
+    pub light: LightShape,
+    pub height: f64,
+    pub turn: f64,
 }
 
 /// Place of the middle and width from 10 % to 90 % of the light, metres across the edge.
@@ -39,7 +40,7 @@ struct Penumbra {
 
 impl Case {
     /// The share of the light that the floor sees `x` metres from below the edge.
-    fn visibility(&self, x: f64) -> f64 {
+    pub fn visibility(&self, x: f64) -> f64 {
         let turn = DMat3::from_rotation_y(self.turn);
         let (p, edge) = (turn * DVec3::new(x, 0.0, 0.0), DVec3::Y * self.height);
         let up = past_half_plane(p, edge, turn * DVec3::Z, turn * DVec3::NEG_X);
@@ -101,19 +102,42 @@ impl Case {
         scene
     }
 
-    /// What the technique makes of it, as shares of the true width: error of the middle, width.
-    fn measure(&self, gpu: &Gpu, technique: Box<dyn Technique>) -> Penumbra {
+    /// What the technique makes of it, column by column.
+    pub fn profile(&self, gpu: &Gpu, technique: Box<dyn Technique>) -> Profile {
         let scene = self.scene();
         let mut renderer = Renderer::new(gpu, &scene, COLUMNS, ROWS, vec![LightPass { light: 0, technique }]).unwrap();
         let seen = visibility(&mut renderer, &scene);
-        let column = |x: u32| (0..ROWS).map(|y| f64::from(seen[(x, y)])).sum::<f64>() / f64::from(ROWS);
-        let got = smoothed(&(0..COLUMNS).map(column).collect::<Vec<_>>());
+        let mean = |x: u32, of: &dyn Fn(f32) -> f64| (0..ROWS).map(|y| of(seen[(x, y)])).sum::<f64>() / f64::from(ROWS);
         let want = self.penumbra();
         let place = |x: u32| (f64::from(x) + 0.5 - 0.5 * f64::from(COLUMNS)) / PENUMBRA * want.width + want.middle;
-        let want = smoothed(&(0..COLUMNS).map(|x| self.visibility(place(x))).collect::<Vec<_>>());
+        let views = renderer.technique(0).unwrap().inside().light_views().to_vec();
+        Profile {
+            columns: (0..COLUMNS).map(|x| mean(x, &|v| v.into())).collect(),
+            lit: (0..COLUMNS).map(|x| mean(x, &|v| if v > 0.0 { 1.0 } else { 0.0 })).collect(),
+            places: (0..COLUMNS).map(place).collect(),
+            views,
+        }
+    }
+
+    /// What the technique makes of it, as shares of the true width: error of the middle, width.
+    fn measure(&self, gpu: &Gpu, technique: Box<dyn Technique>) -> Penumbra {
+        let profile = self.profile(gpu, technique);
+        let got = smoothed(&profile.columns);
+        let want = smoothed(&profile.places.iter().map(|x| self.visibility(*x)).collect::<Vec<_>>());
         let (got, want) = (penumbra_of(&got), penumbra_of(&want));
         Penumbra { middle: (got.middle - want.middle) / want.width, width: got.width / want.width }
     }
+}
+
+/// Means of visibility along lines that are parallel to the edge.
+pub struct Profile {
+    pub columns: Vec<f64>,
+    /// Shares of pixels that see anything of the light.
+    pub lit: Vec<f64>,
+    /// Metres from below the edge.
+    pub places: Vec<f64>,
+    /// Of the maps.
+    pub views: Vec<LightView>,
 }
 
 fn smoothed(profile: &[f64]) -> Vec<f64> {
@@ -127,7 +151,7 @@ fn penumbra_of(profile: &[f64]) -> Penumbra {
 
 /// Where the profile rises through `level`: the middle between the first and the last time that it
 /// does, should noise make it several. Not a number where it never does.
-fn crossing(profile: &[f64], level: f64) -> f64 {
+pub fn crossing(profile: &[f64], level: f64) -> f64 {
     let rises = profile.windows(2).enumerate().filter(|(_, pair)| pair[0] < level && pair[1] >= level);
     let places: Vec<f64> = rises.map(|(i, pair)| i as f64 + (level - pair[0]) / (pair[1] - pair[0])).collect();
     places.first().zip(places.last()).map_or(f64::NAN, |(first, last)| 0.5 * (first + last))

@@ -15,14 +15,15 @@ struct SmoothieLight {
     to_light: array<vec4f, 3>,
     // Half axes in world space.
     half_axes: array<vec4f, 3>,
-    // Relative to the casters' origin; 0 under parallel light, where to is not of importance.
+    // Relative to the casters' origin; under parallel light 0.
     center: vec3f,
-    // No receiver is at a smaller depth of the layer.
-    farthest: f32,
+    // From there to its farthest point; under parallel light per metre of distance.
+    reach: f32,
+    // A box around all receivers.
+    low: vec3f,
     face: u32,
+    high: vec3f,
     is_parallel: u32,
-    pad_a: u32,
-    pad_b: u32,
 }
 
 @group(3) @binding(0) var<uniform> smoothie_light: SmoothieLight;
@@ -96,6 +97,12 @@ fn nearer_in_squares(nearest: vec2f, a: vec2f, way: vec2f, place: f32) -> vec2f 
     return select(nearest, vec2f(most, at), most < nearest.x);
 }
 
+// A place on a light that is a square, or a line in the plane with this normal.
+fn in_square(place: vec3f, normal: vec3f) -> vec2f {
+    let across = cross(vec3f(1.0, 0.0, 0.0), normal) / LINE_WIDTH;
+    return vec2f(place.x, select(place.y, dot(place, across), smoothie_light.face == LINE));
+}
+
 // What the light's plane is perpendicular to, for what lies in this direction.
 fn plane_of_light(way: vec3f) -> vec3f {
     let flat = vec3f(0.0, 0.0, select(1.0, -1.0, way.z < 0.0));
@@ -120,7 +127,7 @@ fn end_between(a: End, b: End, at: f32) -> End {
 // From where ends are seen: through a point `at`, with the normal of the light's plane and the
 // distance of the point from it, by a receiver whose depth is this share of the point's, or so many
 // metres behind it.
-struct Seen {
+struct Line {
     at: vec3f,
     normal: vec3f,
     distance: f32,
@@ -128,27 +135,27 @@ struct Seen {
     beyond: f32,
 }
 
-fn end_seen(p: vec3f, seen: Seen) -> End {
-    let b = dot(seen.normal, p);
-    let before = b - seen.distance + seen.beyond;
+fn end_seen(p: vec3f, line: Line) -> End {
+    let b = dot(line.normal, p);
+    let before = b - line.distance + line.beyond;
     if smoothie_light.is_parallel != 0u {
-        return End(vec3f(p.xy - seen.at.xy, 0.0), before, before);
+        return End(vec3f(p.xy - line.at.xy, 0.0), before, before);
     }
-    let scale = b / seen.distance;
-    return End(p - seen.at * scale, 1.0 - scale * seen.share, b);
+    let scale = b / line.distance;
+    return End(p - line.at * scale, 1.0 - scale * line.share, b);
 }
 
 // The smoothie of an edge from `start` to `end` at a point `at`, all in the light's space, where what
 // the light sees lies at depth `behind`; that of `at` is `depth`, and `per_metre` how depth changes
-// under parallel light.
-fn smoothie_at(start: vec3f, end: vec3f, at: vec3f, depth: f32, per_metre: f32, behind: f32) -> Smoothie {
+// under parallel light. `in_squares`: the light is a square or a line.
+fn smoothie_at(start: vec3f, end: vec3f, at: vec3f, depth: f32, per_metre: f32, behind: f32, in_squares: bool) -> Smoothie {
     let is_parallel = smoothie_light.is_parallel != 0u;
     let normal = select(plane_of_light(at), vec3f(0.0, 0.0, 1.0), is_parallel);
     let distance = dot(normal, at);
     let beyond = (depth - behind) / per_metre;
-    let seen = Seen(at, normal, distance, behind / depth, beyond);
-    let first = end_seen(start, seen);
-    let last = end_seen(end, seen);
+    let line = Line(at, normal, distance, behind / depth, beyond);
+    let first = end_seen(start, line);
+    let last = end_seen(end, line);
     // What is between the light and the receiver.
     let least = CONTACT * max(abs(first.before), abs(last.before));
     var part = narrowed(vec2f(0.0, 1.0), first.before - least, last.before - least);
@@ -157,13 +164,12 @@ fn smoothie_at(start: vec3f, end: vec3f, at: vec3f, depth: f32, per_metre: f32, 
     let b = end_between(first, last, part.y);
     let first_place = a.place / a.before;
     let last_place = b.place / b.before;
-    let across = cross(vec3f(1.0, 0.0, 0.0), normal) / LINE_WIDTH;
-    let is_line = smoothie_light.face == LINE;
-    let in_squares = nearest_in_squares(
-        vec2f(first_place.x, select(first_place.y, dot(first_place, across), is_line)),
-        vec2f(last_place.x, select(last_place.y, dot(last_place, across), is_line)),
-    );
-    let nearest = select(nearest_on(first_place, last_place), in_squares, is_line || smoothie_light.face == SQUARE);
+    var nearest: vec2f;
+    if in_squares {
+        nearest = nearest_in_squares(in_square(first_place, normal), in_square(last_place, normal));
+    } else {
+        nearest = nearest_on(first_place, last_place);
+    }
     // What is evenly spread on the light is not along the edge.
     let place = nearest.y * a.before / max(nearest.y * a.before + (1.0 - nearest.y) * b.before, 1e-30);
     let away = mix(a.distance, b.distance, place);

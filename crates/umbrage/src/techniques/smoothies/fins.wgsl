@@ -54,13 +54,26 @@ fn fin_of_texels(edge: ContourEdge, vertex: u32) -> FinCorner {
     return FinCorner(position, vec3f(0.0), vec3f(seen.start, seen.depth.x), vec3f(seen.end, seen.depth.y), vec2f(1.0), 1.0);
 }
 
-// How much of the light's extent the penumbra of a point at this clip place can have, behind it.
-fn most_of_extent(clip: vec4f, per_metre: f32) -> f32 {
-    let depth = clip.z / clip.w;
-    let share = 1.0 - smoothie_light.farthest / depth;
-    let metres = (depth - smoothie_light.farthest) * clip.w / per_metre;
-    let most = select(share, metres, smoothie_light.is_parallel != 0u);
-    return select(most, 1.0, smoothie_light.is_parallel == 0u && !(clip.w > 0.0 && share < 1.0));
+// How much of the light's extent the penumbra of a point has at most where there are receivers:
+// under parallel light the way from the point to the farthest of them.
+//
+// A way that starts within the light's extent of the point leaves the box around the receivers where
+// it leaves the first pair of its sides.
+fn most_of_extent(p: vec3f, per_metre: f32) -> f32 {
+    let way = way_of_light(p);
+    let reach = smoothie_light.reach;
+    if smoothie_light.is_parallel != 0u {
+        let unit = way / length(way);
+        let room = select(p - smoothie_light.low, smoothie_light.high - p, unit > vec3f(0.0));
+        let sure = abs(unit) - reach;
+        let leaves = select(vec3f(1e30), max(room, vec3f(0.0)) / sure, sure > vec3f(0.0));
+        let to_end = max(clip_of(p).z, 0.0) / per_metre;
+        return min(min(leaves.x, to_end), min(leaves.y, leaves.z));
+    }
+    let room = select(smoothie_light.center - smoothie_light.low, smoothie_light.high - smoothie_light.center, way > vec3f(0.0));
+    let sure = abs(way) - reach;
+    let leaves = select(vec3f(1e30), max(room, vec3f(0.0)) / sure, sure > vec3f(0.0));
+    return 1.0 - 1.0 / max(min(leaves.x, min(leaves.y, leaves.z)), 1.0);
 }
 
 // How much farther the light's rim may be seen to reach than its extent says, since a part of the
@@ -74,7 +87,13 @@ fn nearer(way: vec3f) -> f32 {
 
 // A corner of what holds the fin: on the edge's own line and outwards from there, so that it is as
 // wide everywhere.
-fn fin_of_light(edge: ContourEdge, vertex: u32) -> FinCorner {
+fn fin_of_light(whole: ContourEdge, vertex: u32) -> FinCorner {
+    // What is far outside of the layer would cost precision inside.
+    let seen = layer_edge(whole, map_view.size);
+    if !seen.is_seen {
+        return no_fin();
+    }
+    let edge = ContourEdge(seen_start(whole, seen), seen_end(whole, seen), whole.times, true);
     let is_end = is_at_end(vertex);
     let p = select(edge.start, edge.end, is_end);
     let outward = outward_at(edge, p);
@@ -82,9 +101,7 @@ fn fin_of_light(edge: ContourEdge, vertex: u32) -> FinCorner {
         return no_fin();
     }
     let per_metre = metres_of_depth();
-    let a = clip_of(edge.start);
-    let b = clip_of(edge.end);
-    let most = max(most_of_extent(a, per_metre), most_of_extent(b, per_metre))
+    let most = max(most_of_extent(edge.start, per_metre), most_of_extent(edge.end, per_metre))
         * max(nearer(way_of_light(edge.start)), nearer(way_of_light(edge.end)));
     if !(most > 0.0) {
         return no_fin();
@@ -144,50 +161,86 @@ fn paraboloid_way(position: vec4f) -> vec3f {
 }
 
 // The smoothie that a fragment shows, where what the light sees lies at depth `behind`.
-fn smoothie_of(in: FinCorner, behind: f32) -> Smoothie {
+fn smoothie_of(in: FinCorner, behind: f32, in_squares: bool) -> Smoothie {
     if WIDTH > 0.0 {
         let found = nearest_on(vec3f(in.start.xy - in.position.xy, 0.0), vec3f(in.end.xy - in.position.xy, 0.0));
         let depth = mix(in.start.z, in.end.z, found.y);
         return Smoothie(select(2.0, found.x / WIDTH * depth / (depth - behind), depth > behind), depth);
     }
     if PARABOLOID {
-        return smoothie_at(in.start, in.end, to_light(paraboloid_way(in.position)), map_view.near, 1.0, behind);
+        let way = to_light(paraboloid_way(in.position));
+        return smoothie_at(in.start, in.end, way, map_view.near, 1.0, behind, in_squares);
     }
-    return smoothie_at(in.start, in.end, in.at, in.place.x / in.place.y, in.per_metre / in.place.y, behind);
+    return smoothie_at(in.start, in.end, in.at, in.place.x / in.place.y, in.per_metre / in.place.y, behind, in_squares);
 }
 
-// What a fragment of both draws is: share of light and depth; a share of 1 or more is beyond the rim.
-fn seen_smoothie(in: FinCorner) -> Smoothie {
+// What a fragment shows; a share of more than 1 is nothing.
+struct Seen {
+    share: f32,
+    depth: f32,
+    behind: f32,
+}
+
+fn seen_smoothie(in: FinCorner, in_squares: bool) -> Seen {
     let behind = depth_of(textureLoad(map_depth, vec2i(in.position.xy), 0), map_view.farthest);
     let counted = select(0.0, behind, REMAP);
-    let found = smoothie_of(in, counted);
+    let found = smoothie_of(in, counted, in_squares);
     let is_there = found.share < 1.0 && found.depth > behind;
     let of_cone = mix(found.depth, counted, found.share);
-    return Smoothie(select(2.0, found.share, is_there), select(found.depth, of_cone, CONES));
+    return Seen(select(2.0, found.share, is_there), select(found.depth, of_cone, CONES), behind);
 }
 
+// Of what is blended the least counts: the darkest smoothie, and the one nearest to the light.
+struct Least {
+    @location(0) share: vec4f,
+    @location(1) before: vec4f,
+}
+
+// How far the smoothie is before what the light sees behind it, so that halves of floats tell both
+// apart however near they are: from a point 1 − b/r. Where there is nothing behind, its depth, from a
+// point the inverse of its distance.
+fn before(depth: f32, behind: f32) -> f32 {
+    let is_parallel = smoothie_light.is_parallel != 0u;
+    let gap = (depth - behind) / select(depth, 1.0, is_parallel);
+    return select(gap, depth / select(map_view.near, 1.0, is_parallel), behind == 0.0);
+}
+
+fn least(in: FinCorner, in_squares: bool) -> Least {
+    let seen = seen_smoothie(in, in_squares);
+    if seen.share > 1.0 {
+        discard;
+    }
+    return Least(vec4f(seen.share), vec4f(-before(seen.depth, seen.behind)));
+}
+
+@fragment
+fn fin_round(in: FinCorner) -> Least {
+    return least(in, false);
+}
+
+@fragment
+fn fin_square(in: FinCorner) -> Least {
+    return least(in, true);
+}
+
+fn is_in_squares() -> bool {
+    return smoothie_light.face == SQUARE || smoothie_light.face == LINE;
+}
+
+// To be looked at: the depth, and the share before it is divided by 1 − b/r, which is that of a
+// receiver infinitely far away.
 @fragment
 fn fin_depth(in: FinCorner) -> @builtin(frag_depth) f32 {
-    let found = seen_smoothie(in);
-    if found.share > 1.0 {
+    let seen = seen_smoothie(in, is_in_squares());
+    if seen.share > 1.0 {
         discard;
     }
-    return saturate(found.depth);
+    return saturate(seen.depth);
 }
 
-@fragment
-fn fin_share(in: FinCorner) -> @location(0) vec4f {
-    let found = seen_smoothie(in);
-    if found.share > 1.0 {
-        discard;
-    }
-    return vec4f(found.share);
-}
-
-// The share before it is divided by 1 − b/r: that of a receiver infinitely far away.
 @fragment
 fn fin_alpha(in: FinCorner) -> @location(0) vec4f {
-    let found = smoothie_of(in, 0.0);
+    let found = smoothie_of(in, 0.0, is_in_squares());
     if !(found.share < 1.0) {
         discard;
     }

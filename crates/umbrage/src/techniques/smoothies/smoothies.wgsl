@@ -1,18 +1,30 @@
 // needs: map_visibility
 // Behind the map there is shadow, behind a smoothie what that says, before both there is light.
 
-@group(2) @binding(0) var smoothie_depth: texture_depth_2d_array;
-@group(2) @binding(1) var smoothie_share: texture_2d_array<f32>;
+@group(2) @binding(0) var smoothie_share: texture_2d_array<f32>;
+// How far the nearest smoothie is before what the map holds, see `before` in `fins.wgsl`; negative.
+@group(2) @binding(1) var smoothie_before: texture_2d_array<f32>;
 
 // The texel of the point, or the four around it, each with a decision of its own.
 override FOUR: bool = false;
 override REMAP: bool = true;
 
+// What is rounded in a half float.
+const ROUNDED: f32 = 1.0 - 1.0 / 1024.0;
+
+// Depth of the nearest smoothie.
+fn fin_depth(texel: vec2i, layer: u32, stored: f32) -> f32 {
+    let before = -textureLoad(smoothie_before, texel, layer, 0).x * ROUNDED;
+    let alone = before / select(1.0, map.layers[layer].per_metre, PERSPECTIVE);
+    let over = select(stored + before, stored / (1.0 - before), PERSPECTIVE);
+    return select(select(over, alone, stored == 0.0), 0.0, before == 0.0);
+}
+
 // What one texel says; `bend` is forgiven besides.
 fn share_by(point: MapPoint, texel: vec2i, bend: f32) -> f32 {
     let offset = vec2f(texel) + 0.5 - point.texel;
     let stored = load_depth(texel, point.layer);
-    let fin = textureLoad(smoothie_depth, texel, point.layer, 0);
+    let fin = fin_depth(texel, point.layer, stored);
     let share = textureLoad(smoothie_share, texel, point.layer, 0).x;
     // The map holds no receiver there, but there is one: a surface that casts no shadow.
     let own = share * fin / max(fin - point.depth, 1e-30);

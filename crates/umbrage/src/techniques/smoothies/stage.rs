@@ -1,21 +1,18 @@
 //! The stage that draws smoothies into the light's views.
 
-use super::light::{SmoothieLight, farthest_depth};
-use super::targets::{DEPTH, Layered, SHARE, layer_of};
+use super::light::SmoothieLight;
+use super::targets::{DEPTH, LEAST, Layered, layer_of};
 use super::{FINS, Geometry, Smoothies, VIEWS};
 use crate::area_light::Form;
 use crate::casters::Casters;
 use crate::depth_maps::{EdgeDraw, EdgePass, EdgeTarget, LAYER_NAMES, MapFrame, Stage};
-use crate::fullscreen::{self, FLOATS, UNIFORM, attachment, bind, layout};
+use crate::fullscreen::{self, FLOATS, UNIFORM, bind, layout};
 use crate::technique::DebugView;
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
+use umbrage_core::Bounds;
+use umbrage_core::glam::DVec3;
 
-/// Ways to draw the edges, in the order that they are drawn in.
-const DRAWS: [(&str, &str); 3] = [("fin_depth", "smoothie depth"), ("fin_share", "smoothies"), ("fin_alpha", "alpha")];
-/// That of [`DRAWS`] which is only looked at.
-const ALPHA: usize = 2;
-
-/// Draws smoothies: their nearest depth, then the least share of light.
+/// Draws smoothies of all casters: the least share of light, and the nearest of them.
 pub(super) struct SmoothieStage {
     /// As wide as the light; else some texels.
     follows_light: bool,
@@ -24,25 +21,71 @@ pub(super) struct SmoothieStage {
     layout: wgpu::BindGroupLayout,
     of_fins: wgpu::BindGroupLayout,
     made: Option<Made>,
-    /// By number of the view in the frame.
-    lights: Vec<SmoothieLight>,
+    light: SmoothieLight,
     /// By layer: what it was drawn for.
-    drawn: Vec<Option<(u64, SmoothieLight)>>,
+    drawn: Vec<Option<Drawn>>,
     /// Nothing has a fin.
     is_hard: bool,
-    shows_alpha: bool,
+    shown: Option<Shown>,
 }
+
+/// The version of a layer of the maps, the light, and whether anything has a fin.
+type Drawn = (u64, SmoothieLight, bool);
 
 /// What was made for one texture of maps.
 struct Made {
     maps: wgpu::Texture,
-    depth: Layered,
     share: Layered,
-    /// When it is looked at.
-    alpha: Option<Layered>,
-    /// By layer: the light, and what fins read.
-    lights: Vec<(wgpu::Buffer, wgpu::BindGroup)>,
+    before: Layered,
+    shown: Option<(Shown, Layered)>,
+    light: wgpu::Buffer,
+    /// By layer: what fins read.
+    fins: Vec<wgpu::BindGroup>,
     look_up: wgpu::BindGroup,
+}
+
+/// What is drawn to be looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Shown {
+    Depth,
+    Alpha,
+}
+
+/// How edges are drawn, by number of [`EdgeDraw`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Draw {
+    Round,
+    Square,
+    Depth,
+    Alpha,
+}
+
+impl Draw {
+    const ALL: [Self; 4] = [Self::Round, Self::Square, Self::Depth, Self::Alpha];
+
+    fn edges(self) -> EdgeDraw {
+        let least = wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::One,
+            dst_factor: wgpu::BlendFactor::One,
+            operation: wgpu::BlendOperation::Min,
+        };
+        let blend = Some(wgpu::BlendState { color: least, alpha: least });
+        let target = Some(wgpu::ColorTargetState { blend, ..LEAST.into() });
+        let nearest = wgpu::DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: Default::default(),
+            bias: Default::default(),
+        };
+        let (entry, targets, depth_stencil) = match self {
+            Self::Round => ("fin_round", vec![target.clone(), target], None),
+            Self::Square => ("fin_square", vec![target.clone(), target], None),
+            Self::Depth => ("fin_depth", Vec::new(), Some(nearest)),
+            Self::Alpha => ("fin_alpha", vec![target], None),
+        };
+        EdgeDraw { vertex: "fin", fragment: Some(entry), targets, depth_stencil }
+    }
 }
 
 impl SmoothieStage {
@@ -53,82 +96,46 @@ impl SmoothieStage {
             ("REMAP", switch(settings.remap)),
             ("CONES", switch(settings.geometry == Geometry::Cones)),
         ];
-        let array = |sample_type| wgpu::BindingType::Texture {
-            sample_type,
+        let array = wgpu::BindingType::Texture {
+            sample_type: FLOATS,
             view_dimension: wgpu::TextureViewDimension::D2Array,
             multisampled: false,
         };
-        let depth = wgpu::TextureSampleType::Depth;
         let stages = wgpu::ShaderStages::VERTEX_FRAGMENT;
-        let of_fins = layout(gpu, "fins", stages, &[UNIFORM, fullscreen::texture(depth)]);
-        let fragment = wgpu::ShaderStages::FRAGMENT;
+        let map = fullscreen::texture(wgpu::TextureSampleType::Depth);
+        let of_fins = layout(gpu, "fins", stages, &[UNIFORM, map]);
         Self {
             follows_light: settings.width == 0.0,
             remap: settings.remap,
-            pass: EdgePass::new(gpu, &FINS, Some(&of_fins), &constants, DRAWS.map(|(entry, _)| draw(entry)).into()),
-            layout: layout(gpu, "smoothies", fragment, &[array(depth), array(FLOATS)]),
+            pass: EdgePass::new(gpu, &FINS, Some(&of_fins), &constants, Draw::ALL.map(Draw::edges).into()),
+            layout: layout(gpu, "smoothies", wgpu::ShaderStages::FRAGMENT, &[array, array]),
             of_fins,
             made: None,
-            lights: Vec::new(),
+            light: SmoothieLight::default(),
             drawn: Vec::new(),
             is_hard: false,
-            shows_alpha: false,
+            shown: None,
         }
     }
 
     /// Textures for the maps, where there are none.
     fn make(&mut self, gpu: &Gpu, maps: &wgpu::Texture) {
-        let is_right = |made: &Made| made.maps == *maps && (made.alpha.is_some() || !self.shows_alpha);
-        if self.made.as_ref().is_some_and(is_right) {
-            return;
+        let is_right = |made: &Made| made.maps == *maps && made.shown.as_ref().map(|(shown, _)| *shown) == self.shown;
+        if !self.made.as_ref().is_some_and(is_right) {
+            self.made = Some(Made::new(gpu, maps, self.shown, [&self.of_fins, &self.layout]));
+            self.drawn.clear();
+            self.drawn.resize(maps.depth_or_array_layers() as usize, None);
         }
-        let depth = Layered::new(gpu, "smoothie depth", maps, DEPTH);
-        let share = Layered::new(gpu, "smoothies", maps, SHARE);
-        let resources = [depth.whole(), share.whole()];
-        let resources = resources.each_ref().map(wgpu::BindingResource::TextureView);
-        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
-        let count = maps.depth_or_array_layers();
-        let light = |layer: u32| {
-            let buffer = gpu.buffer("light of smoothies", &[SmoothieLight::default()], usage);
-            let map = layer_of(maps, layer);
-            let resources = [buffer.as_entire_binding(), wgpu::BindingResource::TextureView(&map)];
-            let group = bind(gpu, "fins", &self.of_fins, &resources);
-            (buffer, group)
-        };
-        self.made = Some(Made {
-            maps: maps.clone(),
-            alpha: self.shows_alpha.then(|| Layered::new(gpu, "alpha", maps, SHARE)),
-            lights: (0..count).map(light).collect(),
-            look_up: bind(gpu, "smoothies", &self.layout, &resources),
-            depth,
-            share,
-        });
-        self.drawn.clear();
-        self.drawn.resize(count as usize, None);
     }
-}
 
-/// The nearest is kept of depth, and the least of what is a share of light.
-fn draw(entry: &'static str) -> EdgeDraw {
-    let least = wgpu::BlendComponent {
-        src_factor: wgpu::BlendFactor::One,
-        dst_factor: wgpu::BlendFactor::One,
-        operation: wgpu::BlendOperation::Min,
-    };
-    let blend = Some(wgpu::BlendState { color: least, alpha: least });
-    let nearest = wgpu::DepthStencilState {
-        format: DEPTH,
-        depth_write_enabled: Some(true),
-        depth_compare: Some(wgpu::CompareFunction::Greater),
-        stencil: Default::default(),
-        bias: Default::default(),
-    };
-    let is_depth = entry == DRAWS[0].0;
-    EdgeDraw {
-        vertex: "fin",
-        fragment: Some(entry),
-        targets: if is_depth { Vec::new() } else { vec![Some(wgpu::ColorTargetState { blend, ..SHARE.into() })] },
-        depth_stencil: is_depth.then_some(nearest),
+    /// A box around all receivers that the maps are looked up for.
+    fn receivers(&self, frame: &MapFrame) -> Bounds {
+        // Without remapping, every receiver is as if it were infinitely far away.
+        if !self.remap || self.shown.is_some() {
+            return Bounds { min: DVec3::splat(-1e30), max: DVec3::splat(1e30) };
+        }
+        let around = frame.scene.receivers.iter().fold(Bounds::EMPTY, |all, one| all.union(*one));
+        around.grown(1e-4 * around.largest_coordinate())
     }
 }
 
@@ -142,14 +149,9 @@ impl Stage for SmoothieStage {
         self.make(gpu, maps);
         let shape = &view.light.shape;
         let form = Form::of(shape, false, 0.0);
-        self.is_hard = self.follows_light && form.is_point();
-        // Without remapping, every receiver is as if it were infinitely far away.
-        let is_far = !self.remap || self.shows_alpha;
-        self.lights.clear();
-        self.lights.extend(frame.views.iter().map(|light_view| {
-            let farthest = if is_far { 0.0 } else { farthest_depth(light_view, &frame.scene.receivers) };
-            SmoothieLight::new(&form, view.casters.origin(), farthest)
-        }));
+        let receivers = self.receivers(frame);
+        self.light = SmoothieLight::new(&form, view.casters.origin(), &receivers);
+        self.is_hard = (self.follows_light && form.is_point()) || receivers.is_empty();
         if self.is_hard {
             return Ok(());
         }
@@ -158,27 +160,29 @@ impl Stage for SmoothieStage {
 
     fn record(&mut self, passes: &mut Passes<'_>, frame: &MapFrame, casters: &Casters) -> u32 {
         let Some(made) = &self.made else { return 0 };
-        let is_new = |(i, light): (usize, &SmoothieLight)| {
-            let layer = frame.views[i].layer;
-            let now = Some((frame.version(layer), *light));
-            let is_new = self.drawn.get(layer as usize) != Some(&now);
-            is_new.then_some((i, layer as usize))
-        };
-        let new: Vec<_> = self.lights.iter().enumerate().filter_map(is_new).collect();
-        if new.is_empty() {
+        let now = |layer: u32| Some((frame.version(layer), self.light, self.is_hard));
+        let is_new = |layer: u32| self.drawn.get(layer as usize) != Some(&now(layer));
+        if !frame.views.iter().any(|view| is_new(view.layer)) {
             return 0;
         }
+        passes.upload(&made.light, bytemuck::bytes_of(&self.light));
         if !self.is_hard {
             self.pass.find(passes, casters, frame);
         }
+        let is_square = self.follows_light && self.light.is_square();
+        let draw = if is_square { Draw::Square } else { Draw::Round };
         let mut draws = 0;
-        for (i, layer) in new {
-            let light = self.lights[i];
-            passes.upload(&made.lights[layer].0, bytemuck::bytes_of(&light));
-            for (number, (_, label)) in DRAWS.iter().enumerate() {
-                draws += made.record(passes, casters, (&self.pass, self.is_hard), (i, layer), (number, *label));
+        for (i, view) in frame.views.iter().enumerate().filter(|(_, view)| is_new(view.layer)) {
+            for draw in [Some(draw), made.shown.as_ref().map(|(shown, _)| shown.draw())].into_iter().flatten() {
+                let pass = Some(&self.pass).filter(|_| !self.is_hard);
+                draws += made.record(passes, casters, pass, (i, view.layer as usize), draw);
             }
-            self.drawn[layer] = Some((frame.version(frame.views[i].layer), light));
+        }
+        for view in &frame.views {
+            let now = now(view.layer);
+            if let Some(drawn) = self.drawn.get_mut(view.layer as usize) {
+                *drawn = now;
+            }
         }
         draws
     }
@@ -188,23 +192,23 @@ impl Stage for SmoothieStage {
     }
 
     fn bytes(&self) -> u64 {
-        let made = self.made.as_ref().map_or(0, |made| {
-            let textures = [&made.depth, &made.share].into_iter().chain(&made.alpha);
-            let lights = made.lights.iter().map(|(buffer, _)| buffer.size());
-            textures.map(Layered::bytes).sum::<u64>() + lights.sum::<u64>()
-        });
-        self.pass.bytes() + made
+        self.pass.bytes() + self.made.as_ref().map_or(0, Made::bytes)
     }
 
     fn inspect(&mut self, view: Option<&str>) {
-        self.shows_alpha = view.is_some_and(|name| name.starts_with("alpha-before"));
+        self.shown = view.and_then(|name| match name {
+            _ if name.starts_with(Shown::Depth.name()) => Some(Shown::Depth),
+            _ if name.starts_with(Shown::Alpha.name()) => Some(Shown::Alpha),
+            _ => None,
+        });
     }
 
     fn debug_views(&self) -> Vec<DebugView<'_>> {
         let Some(made) = &self.made else { return Vec::new() };
+        let shown = |of: Shown| made.shown.as_ref().filter(|(shown, _)| *shown == of).map(|(_, layered)| layered);
+        let of_names = [shown(Shown::Depth), shown(Shown::Alpha), Some(&made.share)];
         let mut views = Vec::new();
-        let shown = [Some(&made.depth), made.alpha.as_ref(), Some(&made.share)];
-        for (layered, names) in shown.into_iter().zip(VIEWS[LAYER_NAMES.len()..].chunks(LAYER_NAMES.len())) {
+        for (layered, names) in of_names.into_iter().zip(VIEWS[LAYER_NAMES.len()..].chunks(LAYER_NAMES.len())) {
             let Some(texture) = layered.map(|layered| &layered.texture) else { continue };
             let layers = (0..texture.depth_or_array_layers()).zip(names);
             views.extend(layers.map(|(layer, name)| DebugView { name, texture, layer }));
@@ -213,31 +217,83 @@ impl Stage for SmoothieStage {
     }
 }
 
+impl Shown {
+    /// What its views are called, before the number of the layer.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Depth => "smoothie-depth-",
+            Self::Alpha => "alpha-before-",
+        }
+    }
+
+    fn draw(self) -> Draw {
+        if self == Self::Depth { Draw::Depth } else { Draw::Alpha }
+    }
+}
+
 impl Made {
-    /// Draws one of [`DRAWS`] into a layer; nothing stands on any edge where all is hard.
+    fn new(
+        gpu: &Gpu,
+        maps: &wgpu::Texture,
+        shown: Option<Shown>,
+        [of_fins, look_up]: [&wgpu::BindGroupLayout; 2],
+    ) -> Self {
+        let texture = |label, format| Layered::new(gpu, label, maps, format);
+        let share = texture("smoothies", LEAST);
+        let before = texture("before receivers", LEAST);
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let light = gpu.buffer("light of smoothies", &[SmoothieLight::default()], usage);
+        let fins = |layer: u32| {
+            let map = layer_of(maps, layer);
+            bind(gpu, "fins", of_fins, &[light.as_entire_binding(), wgpu::BindingResource::TextureView(&map)])
+        };
+        let read = [share.whole(), before.whole()];
+        let format = |shown| if shown == Shown::Depth { DEPTH } else { LEAST };
+        Self {
+            maps: maps.clone(),
+            shown: shown.map(|shown| (shown, texture("smoothies to be looked at", format(shown)))),
+            fins: (0..maps.depth_or_array_layers()).map(fins).collect(),
+            look_up: bind(gpu, "smoothies", look_up, &read.each_ref().map(wgpu::BindingResource::TextureView)),
+            light,
+            share,
+            before,
+        }
+    }
+
+    /// Draws into a layer of a view of the frame; clears it where nothing stands on any edge.
     fn record(
         &self,
         passes: &mut Passes<'_>,
         casters: &Casters,
-        (pass, is_hard): (&EdgePass, bool),
+        pass: Option<&EdgePass>,
         (view, layer): (usize, usize),
-        (number, label): (usize, &str),
+        draw: Draw,
     ) -> u32 {
-        let share = if number == ALPHA { self.alpha.as_ref() } else { Some(&self.share) };
-        let (colors, depth) = if number == 0 {
-            let depth_ops = Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store });
-            let view = &self.depth.layers[layer];
-            (None, Some(wgpu::RenderPassDepthStencilAttachment { view, depth_ops, stencil_ops: None }))
-        } else {
-            let Some(share) = share else { return 0 };
-            (attachment(&share.layers[layer], wgpu::LoadOp::Clear(wgpu::Color::WHITE)), None)
-        };
-        let colors = if number == 0 { Vec::new() } else { vec![colors] };
-        if is_hard {
-            drop(passes.render(label, &colors, depth));
-            return 0;
+        let shown = self.shown.as_ref().map(|(_, layered)| layered);
+        let (mut colors, mut depth) = (Vec::new(), None);
+        match (draw, shown) {
+            (Draw::Depth, Some(shown)) => {
+                let depth_ops = Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store });
+                let view = &shown.layers[layer];
+                depth = Some(wgpu::RenderPassDepthStencilAttachment { view, depth_ops, stencil_ops: None });
+            }
+            (Draw::Alpha, Some(shown)) => colors.push(shown.cleared(layer, wgpu::Color::WHITE)),
+            _ => {
+                colors.push(self.share.cleared(layer, wgpu::Color::WHITE));
+                colors.push(self.before.cleared(layer, wgpu::Color::TRANSPARENT));
+            }
         }
-        let own = Some(&self.lights[layer].1);
-        pass.record(passes, casters, (view, number), own, EdgeTarget { label, colors: &colors, depth })
+        let Some(pass) = pass else {
+            drop(passes.render("smoothies", &colors, depth));
+            return 0;
+        };
+        let target = EdgeTarget { label: "smoothies", colors: &colors, depth };
+        pass.record(passes, casters, (view, draw as usize), Some(&self.fins[layer]), target)
+    }
+
+    fn bytes(&self) -> u64 {
+        let shown = self.shown.as_ref().map(|(_, layered)| layered);
+        let textures = [&self.share, &self.before].into_iter().chain(shown);
+        self.light.size() + textures.map(Layered::bytes).sum::<u64>()
     }
 }

@@ -1,12 +1,12 @@
 //! The textures that smoothies are drawn into: a layer for each of the maps.
 
-use crate::fullscreen::target_texture;
+use crate::fullscreen::{attachment, target_texture};
 use crate::gpu::Gpu;
 
-/// Nearest depth of smoothies.
+/// Of which the least is kept: this can be blended without optional features.
+pub(super) const LEAST: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
+/// Depth, to be looked at.
 pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Shares of light: blended without optional features.
-pub(super) const SHARE: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
 
 /// A texture with a layer for each map, and its layers.
 pub(super) struct Layered {
@@ -26,6 +26,11 @@ impl Layered {
     pub fn whole(&self) -> wgpu::TextureView {
         let dimension = Some(wgpu::TextureViewDimension::D2Array);
         self.texture.create_view(&wgpu::TextureViewDescriptor { dimension, ..Default::default() })
+    }
+
+    /// A layer, to be drawn into from scratch.
+    pub fn cleared(&self, layer: usize, color: wgpu::Color) -> Option<wgpu::RenderPassColorAttachment<'_>> {
+        attachment(&self.layers[layer], wgpu::LoadOp::Clear(color))
     }
 
     pub fn bytes(&self) -> u64 {

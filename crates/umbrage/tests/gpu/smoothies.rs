@@ -1,0 +1,141 @@
+//! Smoothies: the outer half of penumbrae against the closed form.
+
+use crate::common::{gpu, pairs};
+use crate::penumbra::{Case, Profile, crossing};
+use umbrage::core::LightShape;
+use umbrage::core::light_view::LightView;
+use umbrage::core::glam::{DMat3, DVec2, DVec3};
+use umbrage::{Gpu, find};
+
+/// Allowed error of the width, as a share of it.
+const TOLERANCE: f64 = 0.1;
+
+/// Sizes of lights over their height, heights of the edge over that of the light, heights of the
+/// light.
+const SIZES: [f64; 5] = [0.02, 0.05, 0.1, 0.2, 0.3];
+const EDGES: [f64; 5] = [0.1, 0.3, 0.5, 0.65, 0.75];
+const HEIGHTS: [f64; 5] = [2.0, 4.0, 8.0, 15.0, 30.0];
+
+/// The penumbra outside of the hard shadow, metres across the edge.
+#[derive(Clone, Copy, Debug)]
+struct Outer {
+    start: f64,
+    width: f64,
+}
+
+/// By the closed form: from where the light's centre is hidden to where nothing is.
+fn truth(case: &Case) -> Outer {
+    let center = case.light.center();
+    let way = DMat3::from_rotation_y(-case.turn) * (center.truncate() - DVec3::Y * (case.height * center.w));
+    let start = -way.x / way.y * case.height;
+    let (mut dark, mut lit) = (start, start + 1e3);
+    for _ in 0..80 {
+        let middle = 0.5 * (dark + lit);
+        *if case.visibility(middle) < 1.0 - 1e-7 { &mut dark } else { &mut lit } = middle;
+    }
+    Outer { start, width: dark - start }
+}
+
+/// By where the profile leaves 0 and where it gets to 1.
+fn measured(profile: &Profile) -> Outer {
+    let column = (profile.places[1] - profile.places[0]).abs();
+    let at = |columns: &[f64], level: f64| profile.places[0] + column * crossing(columns, level);
+    let width = (at(&profile.columns, 0.98) - at(&profile.columns, 0.02)) / 0.96;
+    Outer { start: at(&profile.lit, 0.5), width }
+}
+
+/// How wide a texel is on the floor.
+fn texel(case: &Case, profile: &Profile) -> f64 {
+    let turn = DMat3::from_rotation_y(case.turn);
+    let middle = profile.places[profile.places.len() / 2];
+    let step = 1e-3 * (profile.places[1] - profile.places[0]).abs();
+    let of = |view: &LightView| {
+        let [a, b] = [middle, middle + step].map(|x| view.project(turn * DVec3::X * x));
+        let (a, b) = (a?.truncate(), b?.truncate());
+        (a.abs().max_element() <= 1.0).then(|| step / ((a - b).length() * 0.5 * f64::from(view.size)))
+    };
+    profile.views.iter().find_map(of).expect("a view")
+}
+
+/// 25 lights of one kind: every size with every height of the edge, at all heights of the light.
+fn cases(kind: &str, light: impl Fn(f64, DVec3, DMat3) -> LightShape) -> Vec<Case> {
+    let pairs = (0..25).map(|i| (i % 5, i / 5));
+    pairs
+        .map(|(size, edge)| {
+            let y = HEIGHTS[(size + edge + 2) % 5];
+            let turn = [0.0, 0.4, 1.1, 2.3, 0.8][(2 * size + edge) % 5];
+            let offset = [-0.4, 0.1, 0.6, 0.0][(size + edge) % 4];
+            let turned = DMat3::from_rotation_y(turn);
+            let at = turned * DVec3::new(offset * y, y, 0.3 * offset * y);
+            let (size, height) = (SIZES[size] * y, EDGES[edge] * y);
+            let name = format!("{kind}, size {size:.2} at {at:.2}, edge at {height:.2}, turned by {turn}");
+            Case { name, light: light(size, at, turned), height, turn }
+        })
+        .collect()
+}
+
+fn rows(gpu: &Gpu, cases: &[&Case], set: &str) -> Vec<(String, bool)> {
+    let info = find("smoothies").unwrap();
+    let row = |case: &&Case| {
+        let profile = case.profile(gpu, info.settings(&pairs(set)).unwrap().make(gpu).unwrap());
+        let (got, want) = (measured(&profile), truth(case));
+        let texel = texel(case, &profile);
+        let falls = profile.columns.windows(2).map(|pair| pair[0] - pair[1]).fold(0.0, f64::max);
+        let (wide, start) = (got.width / want.width, (got.start - want.start) / texel);
+        let right = (wide - 1.0).abs() <= TOLERANCE && start.abs() <= 1.0 && falls < 0.02;
+        let name = format!("{:66} outer width × {wide:.3}, starts {start:+.2} texels off, falls {falls:.3}", case.name);
+        (name, right)
+    };
+    cases.iter().map(row).collect()
+}
+
+fn are_right(cases: &[Case]) {
+    let gpu = gpu();
+    let mut wrong = Vec::new();
+    let some: Vec<&Case> = cases.iter().step_by(6).collect();
+    for (set, cases) in [("", cases.iter().collect()), ("samples=1,geometry=cones", some)] {
+        for (row, right) in rows(&gpu, &cases, set) {
+            println!("{set} {row}");
+            if !right {
+                wrong.push(format!("{set} {row}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), cases.len(), wrong.join("\n"));
+}
+
+#[test]
+fn outer_penumbrae_of_spheres_are_right() {
+    are_right(&cases("sphere", |size, position, _| LightShape::Sphere { position, radius: 0.5 * size }));
+}
+
+#[test]
+fn outer_penumbrae_of_discs_are_right() {
+    for tilt in [0.0, -0.7] {
+        are_right(&cases(&format!("disc tilted by {tilt}"), |size, position, turn| LightShape::Disc {
+            position,
+            direction: turn * (DMat3::from_rotation_z(tilt) * DVec3::NEG_Y),
+            radius: 0.5 * size,
+        }));
+    }
+}
+
+#[test]
+fn outer_penumbrae_of_rectangles_are_right() {
+    for (spin, tilt) in [(0.0, 0.0), (0.7, -0.6)] {
+        are_right(&cases(&format!("rect turned by {spin}, tilted by {tilt}"), |size, position, turn| {
+            let axes = turn * DMat3::from_rotation_z(tilt) * DMat3::from_rotation_y(spin);
+            let (direction, up) = (axes * DVec3::NEG_Y, axes * DVec3::Z);
+            LightShape::Rect { position, direction, up, size: DVec2::new(1.0, 0.4) * size, texture: None }
+        }));
+    }
+}
+
+#[test]
+fn outer_penumbrae_of_suns_are_right() {
+    are_right(&cases("sun", |size, position, _| LightShape::Directional {
+        direction: -position.normalize(),
+        // From 0.4 degrees to six.
+        angle_deg: 20.0 * size / position.y,
+    }));
+}
