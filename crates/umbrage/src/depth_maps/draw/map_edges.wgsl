@@ -53,8 +53,14 @@ fn contour_edge(vertex: u32, group: u32) -> ContourEdge {
     found.start = light_corner(caster, select(edge.start, edge.end, is_turned));
     found.end = light_corner(caster, select(edge.end, edge.start, is_turned));
     found.times = select(1.0, 2.0, (entry & 2u) != 0u);
-    found.is_there = true;
+    let other = edge.second & ~SAME_DIRECTION;
+    found.is_there = has_area(edge.first) || (other != NO_TRIANGLE && has_area(other));
     return found;
+}
+
+// A triangle without area has no plane and shadows nothing, whatever its edges are.
+fn has_area(triangle: u32) -> bool {
+    return any(planes[triangle].xyz != vec3f(0.0));
 }
 
 // Corners 0 to 3 go round the quad: at the end and at the start on one side, at the start and at

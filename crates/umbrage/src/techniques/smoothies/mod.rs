@@ -115,7 +115,11 @@ impl Filter for Smoothies {
         let remap = ("REMAP", f64::from(u8::from(self.remap)));
         let constants = [("FOUR", f64::from(u8::from(self.samples == Samples::Four))), remap];
         let stage = Box::new(SmoothieStage::new(gpu, self));
-        let maps = MapTechnique::staged(gpu, maps, &LOOKUP, 1.0 + self.width, &constants, Some(stage))?.with_every_caster();
+        let texels = if self.samples == Samples::Four { 4 } else { 1 };
+        // What the receivers are is read from the map, so that all of them have to be in it.
+        let maps = MapTechnique::staged(gpu, maps, &LOOKUP, 1.0 + self.width, &constants, Some(stage))?
+            .with_every_caster()
+            .reading(texels * (4 + 2 + 2));
         Ok(Box::new(if self.width > 0.0 { maps } else { maps.soft() }))
     }
 }

@@ -195,6 +195,11 @@ impl Stage for SmoothieStage {
         self.pass.bytes() + self.made.as_ref().map_or(0, Made::bytes)
     }
 
+    fn reads(&self, pass: &str) -> Option<u64> {
+        // A texel of the map, and both numbers that are blended over.
+        (pass == "smoothies").then_some(4 + 2 + 2)
+    }
+
     fn inspect(&mut self, view: Option<&str>) {
         self.shown = view.and_then(|name| match name {
             _ if name.starts_with(Shown::Depth.name()) => Some(Shown::Depth),
