@@ -57,6 +57,11 @@ const GOLDEN: &[Row] = &[
     ("lantern", 1.0, 0, "pcss-jitter", "size=2048", 8.2, 99.95),
     ("city", 1.0, 0, "pcss-jitter", "size=2048", 60.0, 99.95),
     ("primitives", 1.0, 0, "pcss", "size=2048", 2.4, 99.95),
+    // Hard lights have no fins, unless these have a width in texels; four texels decide, not one.
+    ("primitives", 1.0, 0, "smoothies", "size=2048", 3.5, 99.95),
+    ("primitives", 1.0, 0, "smoothies", "size=2048,width=2,remap=off", 9.6, 99.95),
+    ("lantern", 1.0, 0, "smoothies", "size=2048", 11.6, 99.95),
+    ("picket-fence", 1.0, 0, "smoothies", "size=2048", 15.6, 99.95),
     ("city", 1.0, 0, "psm", "", 11.5, 99.95),
     ("city", 1.0, 0, "psm", "cube=on", 11.5, 99.95),
     ("city", 1.0, 0, "lispsm", "", 34.0, 99.9),

@@ -3,8 +3,8 @@
 use crate::common::{gpu, pairs};
 use crate::penumbra::{Case, Profile, crossing};
 use umbrage::core::LightShape;
-use umbrage::core::light_view::LightView;
 use umbrage::core::glam::{DMat3, DVec2, DVec3};
+use umbrage::core::light_view::LightView;
 use umbrage::{Gpu, find};
 
 /// Allowed error of the width, as a share of it.

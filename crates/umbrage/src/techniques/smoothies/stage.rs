@@ -1,8 +1,11 @@
 //! The stage that draws smoothies into the light's views.
 
+use super::FINS;
+use super::Geometry;
+use super::Smoothies;
+use super::VIEWS;
 use super::light::SmoothieLight;
 use super::targets::{DEPTH, LEAST, Layered, layer_of};
-use super::{FINS, Geometry, Smoothies, VIEWS};
 use crate::area_light::Form;
 use crate::casters::Casters;
 use crate::depth_maps::{EdgeDraw, EdgePass, EdgeTarget, LAYER_NAMES, MapFrame, Stage};
