@@ -48,6 +48,16 @@ choices! {
     }
 }
 
+choices! {
+    /// What keeps a surface from shadowing itself.
+    pub enum Offset {
+        /// The receiver's own plane, and what is known of rounding.
+        Auto = "auto",
+        /// A constant and a multiple of the slope, to be tuned by hand.
+        Classic = "classic",
+    }
+}
+
 settings! {
     /// What every technique with maps has.
     pub struct Map {
@@ -61,6 +71,14 @@ settings! {
         cache: bool = true, live true,
         /// Multiplies the automatic depth bias. It is for experiments; 1 is right.
         bias: f64 = 1.0, in 0.0..=100.0, live true,
+        /// What keeps a surface from shadowing itself: the receiver's own plane and what is known of
+        /// rounding, or, as in the classic texts, a constant and a multiple of the slope, tuned by
+        /// hand (ZA 3.1; SG "Shadow Mapping").
+        offset: Offset = Offset::Auto,
+        /// The classic offset's constant part, along the light.
+        constant: f64 = 0.01, in 0.0..=1000.0, unit "m", live true,
+        /// Its other part: the rise of the receiver over so many texels.
+        slope: f64 = 1.0, in 0.0..=100.0, unit "texels", live true,
     }
 }
 
@@ -153,6 +171,46 @@ pub enum Softness {
     Metres(f64),
 }
 
+/// What keeps a surface from shadowing itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bias {
+    /// The automatic one, times a factor.
+    Auto(f64),
+    /// Offsets tuned by hand.
+    Classic {
+        /// Along the light, metres.
+        constant: f64,
+        /// The rise of the receiver over so many texels.
+        slope: f64,
+    },
+}
+
+impl Bias {
+    /// Of the settings that every technique with maps has.
+    fn of(map: &Map) -> Self {
+        match map.offset {
+            Offset::Auto => Self::Auto(map.bias),
+            Offset::Classic => Self::Classic { constant: map.constant, slope: map.slope },
+        }
+    }
+
+    /// What multiplies all that the look-up forgives.
+    pub(super) fn factor(self) -> f64 {
+        match self {
+            Self::Auto(factor) => factor,
+            Self::Classic { .. } => 1.0,
+        }
+    }
+
+    /// Constant and slope of offsets tuned by hand.
+    pub(super) fn offsets(self) -> Option<[f64; 2]> {
+        match self {
+            Self::Auto(_) => None,
+            Self::Classic { constant, slope } => Some([constant, slope]),
+        }
+    }
+}
+
 /// What maps a technique renders: what `cascaded` and the warps hand to their filter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapSetup {
@@ -164,8 +222,8 @@ pub struct MapSetup {
     pub depth: Depth,
     /// Maps are kept while they stay the same.
     pub cache: bool,
-    /// Multiplies the automatic depth bias.
-    pub bias: f64,
+    /// What keeps a surface from shadowing itself.
+    pub bias: Bias,
     /// How views are chosen.
     pub fitting: Fitting,
     /// How soft a filter of one width is.
@@ -175,7 +233,8 @@ pub struct MapSetup {
 impl Map {
     /// Maps whose views are chosen by `fitting`.
     pub fn fitted(&self, fitting: Fitting, softness: Softness) -> MapSetup {
-        let Self { size, faces, cache, bias } = *self;
+        let Self { size, faces, cache, .. } = *self;
+        let bias = Bias::of(self);
         MapSetup { size, faces, depth: Depth::Projective, cache, bias, fitting, softness }
     }
 

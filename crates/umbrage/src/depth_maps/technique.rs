@@ -66,7 +66,9 @@ impl MapTechnique {
         gpu.check_size("a shadow map", size, size)?;
         let fit = Fitter::new(Views::of(setup));
         let more = stage.as_ref().map(|s| s.layout().clone());
-        let lookup = Lookup::new(gpu, shader, fit.choice.blend(), constants, more);
+        let classic = ("CLASSIC", f64::from(u8::from(bias.offsets().is_some())));
+        let constants = [constants, &[classic]].concat();
+        let lookup = Lookup::new(gpu, shader, fit.choice.blend(), &constants, more);
         let input = LookupInput::new(gpu, bias);
         Ok(Self {
             setup: *setup,
@@ -86,7 +88,7 @@ impl MapTechnique {
     fn can_take(&self, new: &MapSetup) -> bool {
         let fixed = |setup: &MapSetup| {
             let views = Views::of(setup);
-            (setup.faces, setup.softness, views.blend(), views.is_fitted_to_depth())
+            (setup.faces, setup.softness, views.blend(), views.is_fitted_to_depth(), setup.bias.offsets().is_some())
         };
         let any_size = self.stage.as_ref().is_none_or(|stage| stage.takes_any_size());
         fixed(&self.setup) == fixed(new) && (any_size || self.setup.size == new.size)

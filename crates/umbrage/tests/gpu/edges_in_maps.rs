@@ -6,8 +6,8 @@ use umbrage::core::glam::{DAffine3, DMat3, DVec3, Vec4};
 use umbrage::core::light_view::{Cascades, Cover, Focus, Omni, Warp};
 use umbrage::core::{Camera, Light, LightShape, Material, Scene, Texture, primitive};
 use umbrage::depth_maps::{
-    Blend, Depth, EdgeDraw, EdgePass, EdgeTarget, Faces, Fitting, MapFrame, MapSetup, MapTechnique, Softness, Splits,
-    Stage,
+    Bias, Blend, Depth, EdgeDraw, EdgePass, EdgeTarget, Faces, Fitting, MapFrame, MapSetup, MapTechnique, Softness,
+    Splits, Stage,
 };
 use umbrage::fullscreen::{FLOATS, attachment, bind, layout, target_texture};
 use umbrage::{Casters, Error, Gpu, Passes, Shader, View};
@@ -193,8 +193,15 @@ fn floating(kind: &str, shape: &LightShape) -> Scene {
 
 /// Pixels where an edge agrees with the map, with shadow outside, and with light inside.
 fn counts(gpu: &Gpu, scene: &Scene, fitting: Fitting, depth: Depth) -> [usize; 3] {
-    let setup =
-        MapSetup { size: 512, faces: Faces::Front, depth, cache: true, bias: 1.0, fitting, softness: Softness::Own };
+    let setup = MapSetup {
+        size: 512,
+        faces: Faces::Front,
+        depth,
+        cache: true,
+        bias: Bias::Auto(1.0),
+        fitting,
+        softness: Softness::Own,
+    };
     let stage = Box::new(Sides::new(gpu));
     let technique = Box::new(MapTechnique::staged(gpu, &setup, &LOOKUP, 4.0, &[], Some(stage)).unwrap());
     let mut renderer = Renderer::new(gpu, scene, 320, 240, vec![LightPass { light: 0, technique }]).unwrap();

@@ -14,6 +14,7 @@ mod light_mask;
 mod limits;
 mod linear_light;
 mod masks;
+mod offsets;
 mod outside;
 mod own_maps;
 mod pcf_blur;

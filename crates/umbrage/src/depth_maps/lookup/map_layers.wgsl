@@ -76,6 +76,9 @@ struct MapLookup {
     last_split: f32,
     // Radius of filters, metres; 0 where it is in texels.
     softness: f32,
+    // Offsets tuned by hand: along the light, metres; and the rise over so many texels.
+    offsets: vec2f,
+    pad: vec2f,
     // Takes the camera's normalised device coordinates to the distance along the view, times w.
     view_distance: vec4f,
     // Distances at which splits end, and at which blending with the next one begins.

@@ -49,6 +49,9 @@ const STEADY_FADE: f32 = 0.025;
 // light a filter meets its horizon, where there is no more of it.
 const BEYOND: f32 = 2.0;
 
+// Offsets are tuned by hand: a constant, and one by the receiver's slope.
+override CLASSIC: bool = false;
+
 // Widest filter of a radius in metres.
 const MOST_TEXELS: f32 = 64.0;
 
@@ -270,7 +273,23 @@ fn point_by_matrix(pixel: Pixel, layer: u32) -> MapPoint {
     point.is_own_shadow = surface.casts && is_in_front && point.across < 0.0;
     let metres = position_rounding(map.eye, pixel.depth, eye_inverse_w) + map.caster_rounding;
     point.rounding = depth_rounding(point, metres, off_surface(map.eye, surface.normal, eye_inverse_w));
+    if CLASSIC {
+        offset_by_hand(&point);
+    }
     return point;
+}
+
+// The receiver counts as perpendicular to the light, which is all that one depth says, and what is
+// forgiven are the offsets.
+fn offset_by_hand(point: ptr<function, MapPoint>) {
+    let slope = map_slope(*point);
+    let z = (*point).depth;
+    let per_metre = map.layers[(*point).layer].per_metre * select(1.0, z * z, PERSPECTIVE);
+    let constant = map.offsets.x * per_metre * select(1.0, abs((*point).inverse_w), WARPED);
+    (*point).rounding = constant + map.offsets.y * (abs(slope.x) + abs(slope.y));
+    (*point).along = vec2f(0.0);
+    (*point).across = 1.0;
+    (*point).bend = 0.0;
 }
 
 // How much depth may be off where positions are by `metres`, in each coordinate that the map's
@@ -346,7 +365,7 @@ fn filter_radius(point: MapPoint, texels: f32) -> f32 {
 // What comparing `texels` away from the receiver has to forgive besides, since curved surfaces bend
 // away from its plane.
 fn map_bend(point: MapPoint, texels: f32) -> f32 {
-    return map.bias * BEND * texels * texel_depth(point);
+    return select(map.bias, 0.0, CLASSIC) * BEND * texels * texel_depth(point);
 }
 
 // Whether a receiver is lit when the depth `stored` lies `offset` texels away from it: its plane,

@@ -6,7 +6,7 @@ use super::pictures::Pictures;
 use super::uniforms::MapLookup;
 use super::variant::Variant;
 use crate::depth_maps::frame::MapFrame;
-use crate::depth_maps::setup::Blend;
+use crate::depth_maps::setup::{Bias, Blend};
 use crate::{
     fullscreen::{Fullscreen, UNIFORM, bind, layout},
     gpu::Gpu,
@@ -38,7 +38,7 @@ pub(crate) struct Lookup {
 
 /// What a look-up reads: the maps of a light and the uniforms that go with them.
 pub(crate) struct LookupInput {
-    bias: f64,
+    bias: Bias,
     uniforms: wgpu::Buffer,
     data: MapLookup,
     bind_group: Option<(wgpu::Texture, wgpu::BindGroup)>,
@@ -239,8 +239,8 @@ impl Lookup {
 }
 
 impl LookupInput {
-    /// `bias` multiplies the automatic one.
-    pub fn new(gpu: &Gpu, bias: f64) -> Self {
+    /// With what keeps surfaces from shadowing themselves.
+    pub fn new(gpu: &Gpu, bias: Bias) -> Self {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
         Self {
             bias,
@@ -251,8 +251,8 @@ impl LookupInput {
         }
     }
 
-    /// Multiplies the automatic bias from the next frame on.
-    pub fn set_bias(&mut self, bias: f64) {
+    /// From the next frame on.
+    pub fn set_bias(&mut self, bias: Bias) {
         self.bias = bias;
     }
 

@@ -5,6 +5,7 @@ use super::layer::MapLayer;
 use super::steady::share_first;
 use crate::depth_maps::frame::MapFrame;
 use crate::depth_maps::layers::{LAYER_CONSTANTS, MOST_LAYERS};
+use crate::depth_maps::setup::Bias;
 use crate::depth_maps::texels::{matrix, near, view_distance};
 use crate::{receivers::Eye, shader::Shared, shader::shader_struct, view::View};
 use umbrage_core::Bounds;
@@ -24,6 +25,8 @@ shader_struct! {
         farthest: f32,
         last_split: f32,
         softness: f32,
+        offsets: [f32; 2],
+        pad: [f32; 2],
         view_distance: [f32; 4],
         splits: [[f32; 4]; 2],
         blends: [[f32; 4]; 2],
@@ -39,8 +42,8 @@ pub(in crate::depth_maps) const SHARED: Shared = Shared {
 };
 
 impl MapLookup {
-    /// For the maps of this frame; `bias` multiplies the automatic one.
-    pub(super) fn new(view: &View<'_>, maps: &MapFrame, bias: f64) -> Self {
+    /// For the maps of this frame.
+    pub(super) fn new(view: &View<'_>, maps: &MapFrame, bias: Bias) -> Self {
         let eye_from_ndc = view.clip_from_eye().inverse();
         // A layer that was not rendered sends every point outside of the map, where all is lit.
         let outside = DMat4::from_cols(DVec4::ZERO, DVec4::ZERO, DVec4::ZERO, DVec4::new(-1.0, -1.0, 0.0, 1.0));
@@ -58,7 +61,8 @@ impl MapLookup {
             from_light: matrix(&from_light),
             size: maps.size as f32,
             rounding: rounding(maps),
-            bias: bias as f32,
+            bias: bias.factor() as f32,
+            offsets: bias.offsets().unwrap_or_default().map(|offset| offset as f32),
             caster_rounding: (largest_coordinate(view) * 2.4e-7 + storage_rounding(maps)) as f32,
             farthest: FARTHEST as f32,
             softness: maps.softness_m as f32,

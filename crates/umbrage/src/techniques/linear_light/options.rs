@@ -1,6 +1,6 @@
 //! Settings.
 
-use crate::depth_maps::{Cover, Covers, Depth, Faces, Layout, MapSetup, Softness};
+use crate::depth_maps::{Bias, Cover, Covers, Depth, Faces, Layout, MapSetup, Softness};
 use crate::{choices, settings};
 
 choices! {
@@ -61,7 +61,7 @@ impl LinearLight {
             faces: Faces::Front,
             depth: Depth::Projective,
             cache: self.cache,
-            bias: self.bias,
+            bias: Bias::Auto(self.bias),
             fitting: Cover { omni: Layout::Cube, focus: self.focus }.fitting(),
             softness: Softness::Own,
         }
