@@ -16,6 +16,7 @@ mod technique;
 mod texels;
 
 use crate::shader::{Shader, Shared};
+pub(crate) use draw::CONTOUR_SHADER;
 pub use draw::{CasterPass, EdgeDraw, EdgePass, EdgeTarget};
 pub use frame::MapFrame;
 
@@ -35,7 +36,8 @@ use umbrage_core::{LightKind, LightKinds};
 pub const SHADERS: [Shader; 3] = draw::SHADERS;
 
 /// What the host has to agree on with the modules of this folder.
-pub(crate) const SHARED: &[Shared] = &[draw::SHARED, lookup::SHARED, stages::SHARED[0], stages::SHARED[1]];
+pub(crate) const SHARED: &[Shared] =
+    &[draw::SHARED[0], draw::SHARED[1], lookup::SHARED, stages::SHARED[0], stages::SHARED[1]];
 
 /// The lights of this family: every kind, soft ones hard from their centre.
 pub const LIGHTS: LightKinds = LightKinds::of(&LightKind::ALL);

@@ -127,7 +127,7 @@ impl Stage for Sides {
             let clear = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
             let colors = &[attachment(&layers[view.layer as usize], clear)];
             let target = EdgeTarget { label: "sides", colors, depth: None };
-            draws += self.pass.record(passes, casters, (i, 0), None, target);
+            draws += self.pass.record(passes, (i, 0), None, target);
         }
         draws
     }

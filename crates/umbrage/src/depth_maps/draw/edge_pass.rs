@@ -1,15 +1,14 @@
 //! Edges of casters drawn into a map of a stage's own, by shaders of its own.
 
+use super::contour::Contour;
 use super::layouts::{view_layout, view_uniform};
 use super::view::MapView;
-use crate::casters::{Casters, Edges, Places};
+use crate::casters::Casters;
 use crate::depth_maps::frame::MapFrame;
 use crate::depth_maps::layers::Layers;
-use crate::silhouettes::{Extrude, Part, Silhouettes, Style, Throw};
 use crate::{error::Error, gpu::Gpu, passes::Passes, shader::Shader};
-use umbrage_core::glam::{DMat4, DVec4};
+use umbrage_core::glam::DVec4;
 use umbrage_core::light_view::{LightView, Omni};
-use umbrage_core::silhouette::Rule;
 
 /// Draws the edges that bound the casters' shadows into layers of maps: points and fins on
 /// silhouettes. Compute finds them once for all layers of a light; the CPU touches no edge.
@@ -38,17 +37,12 @@ pub struct EdgePass {
     pipeline_layout: wgpu::PipelineLayout,
     /// For each kind of layer that came up, one for each of `draws`.
     pipelines: Vec<(Kind, Vec<wgpu::RenderPipeline>)>,
-    silhouettes: Silhouettes,
+    contour: Contour,
     view_layout: wgpu::BindGroupLayout,
     /// By number of the view in the frame.
     uniforms: Vec<(wgpu::Buffer, wgpu::BindGroup)>,
     views: Vec<MapView>,
     kind: Kind,
-    throws: Vec<Throw>,
-    found: Vec<u32>,
-    known: Places,
-    /// What the list of casters was made for.
-    made_for: Option<Key>,
 }
 
 /// One way to draw all edges.
@@ -83,15 +77,6 @@ struct Kind {
     linear: bool,
 }
 
-/// The casters, when they last moved, the light, and the views that chose among them.
-#[derive(PartialEq)]
-struct Key {
-    casters: wgpu::Buffer,
-    moves: u64,
-    light: DVec4,
-    seen_by: Vec<LightView>,
-}
-
 impl EdgePass {
     /// `own` is the layout of what the shaders bind as group 3; `constants` override the shader's.
     /// A technique with this needs [`EdgePass::STORAGE_BUFFERS`].
@@ -102,10 +87,9 @@ impl EdgePass {
         constants: &[(&'static str, f64)],
         draws: Vec<EdgeDraw>,
     ) -> Self {
-        let silhouettes = Silhouettes::new(gpu, Extrude::Compute);
+        let contour = Contour::new(gpu);
         let view_layout = view_layout(gpu);
-        let of_edges = Edges::draw_layout(gpu);
-        let groups = [Some(silhouettes.layout()), Some(&of_edges), Some(&view_layout), own];
+        let groups = [Some(contour.layout()), None, Some(&view_layout), own];
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(shader.name),
             bind_group_layouts: &groups[..if own.is_some() { 4 } else { 3 }],
@@ -117,15 +101,11 @@ impl EdgePass {
             constants: constants.to_vec(),
             pipeline_layout,
             pipelines: Vec::new(),
-            silhouettes,
+            contour,
             view_layout,
             uniforms: Vec::new(),
             views: Vec::new(),
             kind: Kind::default(),
-            throws: Vec::new(),
-            found: Vec::new(),
-            known: Places::default(),
-            made_for: None,
         }
     }
 
@@ -157,38 +137,7 @@ impl EdgePass {
             let made = self.draws.iter().map(|draw| self.pipeline(gpu, draw)).collect();
             self.pipelines.push((self.kind, made));
         }
-        let is_known = |key: &Key| {
-            (&key.casters, key.moves, key.light) == (&casters.instances, casters.moves().now(), light)
-                && key.seen_by == seen_by
-        };
-        if self.made_for.as_ref().is_some_and(is_known) {
-            return Ok(());
-        }
-        self.made_for = None;
-        self.choose(gpu, casters, light, seen_by)?;
-        let (buffer, moves) = (casters.instances.clone(), casters.moves().now());
-        self.made_for = Some(Key { casters: buffer, moves, light, seen_by: seen_by.to_vec() });
-        Ok(())
-    }
-
-    fn choose(&mut self, gpu: &Gpu, casters: &Casters, light: DVec4, seen_by: &[LightView]) -> Result<(), Error> {
-        let edges = casters.edges(gpu)?;
-        self.known.clear(casters.len());
-        self.found.clear();
-        for view in seen_by {
-            casters.casting().query(&view.frustum(), &mut self.found);
-        }
-        self.found.retain(|place| self.known.insert(*place));
-        self.found.sort_unstable();
-        let has_edges = |place: &&u32| {
-            let placed = &casters.placed()[**place as usize];
-            let has_some = !edges.of_mesh(placed.mesh).adjacency.edges.is_empty();
-            has_some && !placed.masked && placed.sides.is_some() && !placed.bounds.is_empty()
-        };
-        self.throws.clear();
-        self.throws.extend(self.found.iter().filter(has_edges).map(|place| throw(*place, light)));
-        let style = Style { weighted: true, quads: true };
-        self.silhouettes.prepare(gpu, casters, (&DMat4::IDENTITY, true), light, &self.throws, style)
+        self.contour.prepare(gpu, casters, light, seen_by)
     }
 
     /// Finds the edges, before the first [`EdgePass::record`] of a frame. A frame in which no layer
@@ -198,9 +147,7 @@ impl EdgePass {
             passes.upload(buffer, bytemuck::bytes_of(view));
             frame.take_matrix(passes, layer.layer, buffer);
         }
-        if let Some(edges) = casters.made_edges().filter(|_| !self.throws.is_empty()) {
-            self.silhouettes.record(passes, edges);
-        }
+        self.contour.record(passes, casters);
     }
 
     /// Draws all edges into the layer of view number `i` of the frame, by way number `draw` of
@@ -209,7 +156,6 @@ impl EdgePass {
     pub fn record(
         &self,
         passes: &mut Passes<'_>,
-        casters: &Casters,
         (i, draw): (usize, usize),
         own: Option<&wgpu::BindGroup>,
         target: EdgeTarget<'_>,
@@ -218,25 +164,23 @@ impl EdgePass {
         let pipelines = self.pipelines.iter().find(|(kind, _)| *kind == self.kind);
         let pipeline = pipelines.and_then(|(_, pipelines)| pipelines.get(draw));
         let uniform = self.uniforms.get(i).filter(|_| i < self.views.len());
-        let edges = casters.made_edges().filter(|_| !self.throws.is_empty());
-        let (Some(pipeline), Some((_, uniform)), Some(edges)) = (pipeline, uniform, edges) else { return 0 };
+        let (Some(pipeline), Some((_, uniform))) = (pipeline, uniform) else { return 0 };
         pass.set_pipeline(pipeline);
         pass.set_bind_group(2, uniform, &[]);
         if own.is_some() {
             pass.set_bind_group(3, own, &[]);
         }
-        self.silhouettes.draw(&mut pass, edges, Part::PassSides);
-        1
+        u32::from(self.contour.draw(&mut pass))
     }
 
     /// Edges that are looked at.
     pub fn edges(&self) -> u64 {
-        if self.throws.is_empty() { 0 } else { self.silhouettes.looked_at().0 }
+        self.contour.edges()
     }
 
     /// Bytes of GPU memory held; the edges themselves are the casters'.
     pub fn bytes(&self) -> u64 {
-        self.silhouettes.bytes() + self.uniforms.iter().map(|(buffer, _)| buffer.size()).sum::<u64>()
+        self.contour.bytes() + self.uniforms.iter().map(|(buffer, _)| buffer.size()).sum::<u64>()
     }
 
     fn pipeline(&self, gpu: &Gpu, draw: &EdgeDraw) -> wgpu::RenderPipeline {
@@ -266,22 +210,5 @@ impl EdgePass {
             multiview_mask: None,
             cache: None,
         })
-    }
-}
-
-/// All of a caster's triangles count, whichever way they are wound.
-fn throw(place: u32, light: DVec4) -> Throw {
-    Throw {
-        place,
-        light,
-        rule: Rule::All,
-        is_body: false,
-        from_infinity: false,
-        z_fail: false,
-        light_cap: false,
-        dark_cap: false,
-        end: DVec4::ZERO,
-        reach: 0.0,
-        anchor: Default::default(),
     }
 }

@@ -1,7 +1,10 @@
-// needs: extrude, map_view
+// needs: contour_record, map_view
 // Draws edges that bound the shadows of casters into a layer of a light's maps: what
 // `EdgePass` draws, four corners an edge. Group 3 is the technique's own.
 
+@group(0) @binding(0) var<storage, read> contour: array<ContourRecord>;
+// Relative to the casters' origin; w = 0: the direction to it.
+@group(0) @binding(1) var<uniform> contour_light: vec4f;
 @group(2) @binding(0) var<uniform> map_view: MapView;
 
 // The layer is seen from a point.
@@ -36,31 +39,20 @@ struct LayerEdge {
     is_seen: bool,
 }
 
+// Edges that an instance draws.
+const EDGES: u32 = 64u;
+
 // What a corner with nothing to draw returns: off the layer.
 const OFF_LAYER: vec4f = vec4f(2.0, 2.0, 0.0, 1.0);
 
 // The edge that a corner belongs to; both numbers are the draw's own.
 fn contour_edge(vertex: u32, group: u32) -> ContourEdge {
-    var found: ContourEdge;
-    let entry = listed(vertex, group, 4u);
-    if entry == NO_ENTRY {
-        return found;
+    let at = group * EDGES + vertex / 4u;
+    if at >= arrayLength(&contour) {
+        return ContourEdge();
     }
-    let slot = entry >> 2u;
-    let caster = list[HEADER + slot / CHUNK];
-    let edge = edges[casters[caster].first_edge + slot - casters[caster].edge_chunk * CHUNK];
-    let is_turned = ((entry & 1u) != 0u) != ((casters[caster].flags & MIRRORED) != 0u);
-    found.start = light_corner(caster, select(edge.start, edge.end, is_turned));
-    found.end = light_corner(caster, select(edge.end, edge.start, is_turned));
-    found.times = select(1.0, 2.0, (entry & 2u) != 0u);
-    let other = edge.second & ~SAME_DIRECTION;
-    found.is_there = has_area(edge.first) || (other != NO_TRIANGLE && has_area(other));
-    return found;
-}
-
-// A triangle without area has no plane and shadows nothing, whatever its edges are.
-fn has_area(triangle: u32) -> bool {
-    return any(planes[triangle].xyz != vec3f(0.0));
+    let found = contour[at];
+    return ContourEdge(found.start, found.end, found.times, found.times > 0.0);
 }
 
 // Corners 0 to 3 go round the quad: at the end and at the start on one side, at the start and at
@@ -75,7 +67,7 @@ fn is_on_other_side(vertex: u32) -> bool {
 
 // The way of light at a point, not normalised: from the light to it, or along parallel light.
 fn way_of_light(p: vec3f) -> vec3f {
-    return p * extrusion.light.w - extrusion.light.xyz;
+    return p * contour_light.w - contour_light.xyz;
 }
 
 // One metre away from the shadow at a point of the edge, across the light; zero where the edge runs

@@ -3,6 +3,7 @@
 
 mod cache;
 mod caster_pass;
+mod contour;
 mod drawer;
 mod edge_pass;
 mod layer;
@@ -13,8 +14,10 @@ mod submission;
 mod textures;
 mod view;
 
+use crate::shader::Shared;
 pub use caster_pass::CasterPass;
+pub(crate) use contour::CONTOUR_SHADER;
 pub(super) use drawer::Drawer;
 pub use edge_pass::{EdgeDraw, EdgePass, EdgeTarget};
 pub(super) use pipelines::SHADERS;
-pub(super) use view::SHARED;
+pub(super) const SHARED: [Shared; 2] = [view::SHARED, contour::SHARED];

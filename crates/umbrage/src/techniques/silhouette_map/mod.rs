@@ -6,7 +6,7 @@
 
 mod stage;
 
-use crate::depth_maps::{Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage};
+use crate::depth_maps::{CONTOUR_SHADER, Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage};
 use crate::settings::Configure;
 use crate::shader::{Module, Shader};
 use crate::silhouettes::FIND_SHADER;
@@ -63,7 +63,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     hard: true,
     settings: SettingsOf::new::<SilhouetteMap>(),
     views: &VIEWS,
-    shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], FIND_SHADER, POINTS, LOOKUP, PICTURES],
+    shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], FIND_SHADER, CONTOUR_SHADER, POINTS, LOOKUP, PICTURES],
     readme: include_str!("README.md"),
 };
 

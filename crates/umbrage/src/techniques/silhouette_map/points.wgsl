@@ -107,8 +107,11 @@ fn point_of_edge(in: CellEdge) -> @builtin(frag_depth) f32 {
     let a = in.start - cell;
     let b = in.end - cell;
     let place = place_in_cell(a, b);
+    if !place.is_inside {
+        discard;
+    }
     let around = depths_around(vec2i(cell));
-    if !place.is_inside || is_hidden(around, mix(in.depth.x, in.depth.y, place.at)) {
+    if is_hidden(around, mix(in.depth.x, in.depth.y, place.at)) {
         discard;
     }
     let outward = normalize(vec2f(a.y - b.y, b.x - a.x));

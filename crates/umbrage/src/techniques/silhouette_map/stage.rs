@@ -114,7 +114,7 @@ impl Stage for SilhouetteStage {
             let depth_ops = Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store });
             let depth = wgpu::RenderPassDepthStencilAttachment { view: &layer.points, depth_ops, stencil_ops: None };
             let target = EdgeTarget { label: "silhouette map", colors: &[], depth: Some(depth) };
-            draws += self.edges.record(passes, casters, (i, 0), Some(&layer.depths), target);
+            draws += self.edges.record(passes, (i, 0), Some(&layer.depths), target);
         }
         draws
     }
