@@ -2,6 +2,7 @@
 // Draws silhouette edges into the silhouette map: where each crosses a cell, a point of it.
 
 @group(3) @binding(0) var depths: texture_depth_2d;
+@group(3) @binding(1) var plain: sampler;
 
 struct CellEdge {
     @builtin(position) position: vec4f,
@@ -62,18 +63,15 @@ fn place_in_cell(a: vec2f, b: vec2f) -> Crossing {
     return Crossing(0.5 * (first + second), down.is_inside || up.is_inside);
 }
 
-fn depth_at(texel: vec2i) -> f32 {
-    let last = vec2i(i32(map_view.size) - 1);
-    return depth_of(textureLoad(depths, clamp(texel, vec2i(0), last), 0), map_view.farthest);
-}
-
 // Depths at the corners of a cell: left and right above, left and right below.
-fn depths_around(cell: vec2i) -> vec4f {
+fn depths_around(cell: vec2f) -> vec4f {
+    let gathered = textureGather(depths, plain, (cell + 1.0) / map_view.size).wzxy;
+    let farthest = map_view.farthest;
     return vec4f(
-        depth_at(cell),
-        depth_at(cell + vec2i(1, 0)),
-        depth_at(cell + vec2i(0, 1)),
-        depth_at(cell + vec2i(1, 1)),
+        depth_of(gathered.x, farthest),
+        depth_of(gathered.y, farthest),
+        depth_of(gathered.z, farthest),
+        depth_of(gathered.w, farthest),
     );
 }
 
@@ -110,7 +108,7 @@ fn point_of_edge(in: CellEdge) -> @builtin(frag_depth) f32 {
     if !place.is_inside {
         discard;
     }
-    let around = depths_around(vec2i(cell));
+    let around = depths_around(cell);
     if is_hidden(around, mix(in.depth.x, in.depth.y, place.at)) {
         discard;
     }

@@ -42,7 +42,7 @@ impl SilhouetteStage {
         };
         let plain = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
         let fragment = wgpu::ShaderStages::FRAGMENT;
-        let depths = layout(gpu, "depths", fragment, &[texture(wgpu::TextureSampleType::Depth)]);
+        let depths = layout(gpu, "depths", fragment, &[texture(wgpu::TextureSampleType::Depth), plain]);
         let draw = EdgeDraw {
             vertex: "corner",
             fragment: Some("point_of_edge"),
@@ -72,8 +72,10 @@ impl SilhouetteStage {
             ..Default::default()
         });
         let layers = (0..count).map(|i| {
-            let depths = wgpu::BindingResource::TextureView(&layer_view(maps, i));
-            let depths = bind(gpu, "depths", &self.depths, &[depths]);
+            let depths = layer_view(maps, i);
+            let sampled =
+                [wgpu::BindingResource::TextureView(&depths), wgpu::BindingResource::Sampler(&self.plain)];
+            let depths = bind(gpu, "depths", &self.depths, &sampled);
             Layer { points: layer_view(&points, i), depths, version: 0 }
         });
         let resources = [wgpu::BindingResource::TextureView(&all), wgpu::BindingResource::Sampler(&self.plain)];
