@@ -87,7 +87,7 @@ impl Borders {
             let colors = &[into.attachment()];
             if let Some(edges) = edges {
                 let target = EdgeTarget { label: "skins", colors, depth: None };
-                draws += edges.record(passes, view.casters, (i, 0), Some(&into.bind_group), target);
+                draws += edges.record(passes, (i, 0), Some(&into.bind_group), target);
                 continue;
             }
             let mut pass = passes.render("skins", colors, None);

@@ -16,7 +16,7 @@ mod steps;
 mod technique;
 mod uniform;
 
-use crate::depth_maps::{EdgePass, LIGHTS, MapSetup, SHADERS as MAP_SHADERS};
+use crate::depth_maps::{CONTOUR_SHADER, EdgePass, LIGHTS, MapSetup, SHADERS as MAP_SHADERS};
 use crate::settings::Configure;
 use crate::shader::{Module, Shader};
 use crate::silhouettes::FIND_SHADER;
@@ -72,6 +72,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
         STEP_SKINS,
         EDGE_SKINS,
         FIND_SHADER,
+        CONTOUR_SHADER,
         LOOKUP,
         PIECES,
     ],
