@@ -8,7 +8,9 @@ mod light;
 mod stage;
 mod targets;
 
-use crate::depth_maps::{Cover, EdgePass, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage};
+use crate::depth_maps::{
+    CONTOUR_SHADER, Cover, EdgePass, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage,
+};
 use crate::settings::Configure;
 use crate::shader::{Module, Shader};
 use crate::silhouettes::FIND_SHADER;
@@ -90,7 +92,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     hard: false,
     settings: SettingsOf::new::<Smoothies>(),
     views: &VIEWS,
-    shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], FIND_SHADER, FINS, LOOKUP],
+    shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], FIND_SHADER, CONTOUR_SHADER, FINS, LOOKUP],
     readme: include_str!("README.md"),
 };
 

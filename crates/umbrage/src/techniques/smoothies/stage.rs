@@ -178,7 +178,7 @@ impl Stage for SmoothieStage {
         for (i, view) in frame.views.iter().enumerate().filter(|(_, view)| is_new(view.layer)) {
             for draw in [Some(draw), made.shown.as_ref().map(|(shown, _)| shown.draw())].into_iter().flatten() {
                 let pass = Some(&self.pass).filter(|_| !self.is_hard);
-                draws += made.record(passes, casters, pass, (i, view.layer as usize), draw);
+                draws += made.record(passes, pass, (i, view.layer as usize), draw);
             }
         }
         for view in &frame.views {
@@ -272,7 +272,6 @@ impl Made {
     fn record(
         &self,
         passes: &mut Passes<'_>,
-        casters: &Casters,
         pass: Option<&EdgePass>,
         (view, layer): (usize, usize),
         draw: Draw,
@@ -296,7 +295,7 @@ impl Made {
             return 0;
         };
         let target = EdgeTarget { label: "smoothies", colors: &colors, depth };
-        pass.record(passes, casters, (view, draw as usize), Some(&self.fins[layer]), target)
+        pass.record(passes, (view, draw as usize), Some(&self.fins[layer]), target)
     }
 
     fn bytes(&self) -> u64 {
