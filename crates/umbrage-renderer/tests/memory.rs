@@ -19,7 +19,7 @@ fn frames_keep_no_memory() {
     const FRAMES: u32 = 100;
     let gpu = Gpu::request(None).unwrap();
     let scene = (scenes::find("primitives").unwrap().build)(1.0);
-    for id in ["none", "pcf", "volume", "wedges"] {
+    for id in ["none", "pcf", "silhouette-map", "volume", "wedges"] {
         let technique = find(id).unwrap().settings(&[]).unwrap().make(&gpu).unwrap();
         let mut renderer = Renderer::new(&gpu, &scene, 64, 48, vec![LightPass { light: 0, technique }]).unwrap();
         let mut frames = |count: u32| {

@@ -24,6 +24,7 @@ mod rasterisers;
 mod robust;
 mod settings;
 mod shared_references;
+mod silhouette_map;
 mod smoothies;
 mod solids;
 mod steady;
