@@ -112,6 +112,9 @@ override LAYERS: u32 = MOST_LAYERS;
 // Splits stand still while the camera moves.
 override STEADY: bool = false;
 
+// Offsets are tuned by hand: a constant, and one by the receiver's slope.
+override CLASSIC: bool = false;
+
 // How a split is blended with the next one: at once, pixel by pixel, or by mixing both.
 override BLEND: u32 = 0u;
 const DITHER: u32 = 1u;

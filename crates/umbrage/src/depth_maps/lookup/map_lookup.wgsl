@@ -49,9 +49,6 @@ const STEADY_FADE: f32 = 0.025;
 // light a filter meets its horizon, where there is no more of it.
 const BEYOND: f32 = 2.0;
 
-// Offsets are tuned by hand: a constant, and one by the receiver's slope.
-override CLASSIC: bool = false;
-
 // Widest filter of a radius in metres.
 const MOST_TEXELS: f32 = 64.0;
 
