@@ -17,6 +17,7 @@ pub mod bounds;
 pub mod camera;
 mod convex;
 pub mod coverage;
+pub mod facets;
 pub mod frustum;
 pub mod image;
 pub mod light;

@@ -49,6 +49,7 @@ mod gpu;
 mod light_samples;
 mod moment_maps;
 mod passes;
+mod planar;
 #[cfg(test)]
 mod probe;
 pub mod read;
@@ -96,5 +97,5 @@ pub fn shaders() -> Vec<Shader> {
 /// What the host has to agree on with the library's modules of WGSL, whatever shader needs them.
 pub fn shared() -> Vec<Shared> {
     let one = [receivers::SHARED, area_light::SHARED, moment_maps::SHARED];
-    [casters::SHARED, silhouettes::SHARED, depth_maps::SHARED, &one].concat()
+    [casters::SHARED, planar::SHARED, silhouettes::SHARED, depth_maps::SHARED, &one].concat()
 }

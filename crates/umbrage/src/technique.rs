@@ -145,6 +145,8 @@ pub enum Family {
     MomentMaps,
     /// Fits the maps that a filter looks up: splits, warps.
     FittedMaps,
+    /// Draws casters through the light on what receives their shadows.
+    Projected,
     /// Counts shadow volumes.
     Volumes,
     /// Works from silhouettes or triangles and the extent of the light.

@@ -102,9 +102,23 @@ const METHODS: [Method; 22] = [
         same(558.66, 684.93),
         94.078,
     )),
-    method("projective, hard", None, same(1.45, 2.20), same(1.54, 2.24), same(6.62, 7.66), 88.348),
-    method("projective, soft", None, same(17.69, 26.06), same(26.79, 39.75), same(154.56, 163.93), 95.759),
-    method("projective, fake", None, same(12.84, 19.66), same(13.78, 19.65), same(18.46, 25.36), 92.288),
+    method("projective, hard", Some("projective"), same(1.45, 2.20), same(1.54, 2.24), same(6.62, 7.66), 88.348),
+    brute(method(
+        "projective, soft",
+        Some("projective"),
+        same(17.69, 26.06),
+        same(26.79, 39.75),
+        same(154.56, 163.93),
+        95.759,
+    )),
+    method(
+        "projective, fake",
+        Some("projective-fake"),
+        same(12.84, 19.66),
+        same(13.78, 19.65),
+        same(18.46, 25.36),
+        92.288,
+    ),
     method(
         "map, hard /b/",
         Some("shadow-map"),
@@ -434,7 +448,7 @@ mod tests {
         assert_eq!(text.matches("\n## ").count(), 6);
         assert_eq!(text.matches("| map, combined /m/ |").count(), 4);
         assert!(
-            text.contains("| projective, soft | – | – (0) | – (17.7) | – (17.7) | – (26.1) | – (26.1) |"),
+            text.contains("| projective, soft | `projective` | – (0) | – (17.7) | – (17.7) | – (26.1) | – (26.1) |"),
             "{text}"
         );
         assert_eq!(huge().matches("bunny-16301.obj").count(), 7);

@@ -6,6 +6,7 @@ use super::material;
 use super::moves::Moves;
 use super::placed::{Batch, CASTS, Instance, Placed, RECEIVES, is_outward, moved_plane, rows};
 use super::places::Places;
+use super::planes::ScenePlanes;
 use super::poses::Poses;
 use super::sides::Sides;
 use super::vertices::{MeshPart, Vertices};
@@ -49,6 +50,7 @@ pub struct Casters {
     pub(super) meshes: Vec<MeshPart>,
     pub(super) poses: Poses,
     pub(super) edges: OnceLock<Edges>,
+    pub(super) receiver_planes: OnceLock<ScenePlanes>,
     pub(super) bytes: u64,
 }
 
@@ -186,6 +188,7 @@ impl Casters {
             meshes,
             poses,
             edges: OnceLock::new(),
+            receiver_planes: OnceLock::new(),
             bytes,
         })
     }
@@ -252,6 +255,9 @@ impl Casters {
         }
         if placed.receives {
             self.receiving.update(place, placed.bounds);
+            if let Some(planes) = self.receiver_planes.get_mut() {
+                planes.update(place, placed, self.solid.has(place));
+            }
         }
     }
 
@@ -344,6 +350,11 @@ impl Casters {
     /// Edges and planes where they have been made.
     pub(crate) fn made_edges(&self) -> Option<&Edges> {
         self.edges.get()
+    }
+
+    /// The planes that shadows fall on, found when first asked for.
+    pub(crate) fn receiver_planes(&self) -> &ScenePlanes {
+        self.receiver_planes.get_or_init(|| ScenePlanes::new(self.origin, &self.meshes, &self.placed, &self.solid))
     }
 
     /// Boxes around the instances that shadows fall on.

@@ -15,6 +15,7 @@ pub(super) const LIBRARY: &[Module] = modules! {
     "wgsl": fullscreen inspect;
     "receivers": pack_normal receivers;
     "casters": instances casters materials edges poses;
+    "planar": plane_finder plane_shadow;
     "silhouettes": extrude;
     "area_light": area_light;
     "depth_maps/draw": map_storage map_view map_depth map_paraboloid contour_record map_edges;

@@ -30,6 +30,8 @@ techniques![
     plane_optimal,
     linear_light,
     smoothies,
+    projective,
+    projective_fake,
     volume,
     wedges,
     light_mask,

@@ -1,0 +1,217 @@
+//! What shaders know of planes.
+
+use super::MOST;
+use super::chosen::Chosen;
+use super::lit::LitPlane;
+use crate::fullscreen::{UNIFORM, bind, layout};
+use crate::receivers::Eye;
+use crate::shader::{Shared, shader_struct};
+use crate::{gpu::Gpu, passes::Passes, view::View};
+use umbrage_core::glam::{DMat4, DVec2};
+
+/// What the host has to agree on with `plane_finder.wgsl`.
+pub(super) const FINDER: Shared = Shared {
+    module: "plane_finder",
+    layouts: &[PlaneFinder::LAYOUT, FoundPlane::LAYOUT],
+    constants: &[("MOST_PLANES", MOST as f64)],
+};
+
+/// The same for `plane_shadow.wgsl`.
+pub(super) const SHADOW: Shared = Shared { module: "plane_shadow", layouts: &[PlaneShadow::LAYOUT], constants: &[] };
+
+shader_struct! {
+    /// Planes that pixels may belong to, see `plane_finder.wgsl`.
+    pub(crate) struct PlaneFinder {
+        eye: Eye,
+        light: [f32; 4],
+        slack: f32,
+        rounding: f32,
+        count: u32,
+        pad: u32,
+        planes: [FoundPlane; MOST],
+        behind: [FoundPlane; MOST],
+    }
+}
+
+shader_struct! {
+    /// One of them.
+    pub(crate) struct FoundPlane {
+        across: [f32; 4],
+        normal: [f32; 3],
+        snapped: f32,
+        low: [f32; 2],
+        high: [f32; 2],
+    }
+}
+
+shader_struct! {
+    /// Projects casters on a plane, see `plane_shadow.wgsl`.
+    pub(crate) struct PlaneShadow {
+        clip_from_eye: [[f32; 4]; 4],
+        plane: [f32; 4],
+        light: [f32; 3],
+        inverse_height: f32,
+        eye: [f32; 3],
+        nearest: f32,
+        least: f32,
+        highest: f32,
+        pad_b: f32,
+        pad_c: f32,
+    }
+}
+
+/// Where a rasteriser finds depth from corners behind the eye, it shifts long grounds by so many
+/// times as much as what is measured with short ones.
+const SPREAD: f64 = 16.0;
+
+/// A step of single precision, as `position_rounding` in `receivers.wgsl` has it.
+const ROUNDING: f32 = 1.2e-7;
+
+/// Dynamic offsets are multiples of this on every device.
+const STRIDE: u64 = 256;
+
+impl PlaneFinder {
+    /// For planes of one light.
+    fn new(view: &View<'_>, planes: &[LitPlane], behind: &[LitPlane], rects: &[[u32; 4]]) -> Self {
+        let center = view.light.shape.center();
+        let light = center.truncate() - view.camera.eye * center.w;
+        let eye = view.camera.eye - view.casters.origin();
+        let of_eye = Eye::new(view);
+        let mut finder = Self {
+            rounding: of_eye.reach * if view.receivers.has_normals { ROUNDING } else { 8.0 * ROUNDING },
+            eye: of_eye,
+            light: light.extend(center.w).as_vec4().to_array(),
+            slack: planes
+                .iter()
+                .chain(behind)
+                .next()
+                .map_or(0.0, |plane| plane.least.max(1e-6 * eye.abs().max_element()) as f32),
+            count: planes.len() as u32,
+            ..Self::default()
+        };
+        let (lit, unlit) = rects.split_at(planes.len().min(rects.len()));
+        let of = |(plane, rect): (&LitPlane, &[u32; 4])| FoundPlane::new(view, plane, *rect);
+        let lit = finder.planes.iter_mut().zip(planes.iter().zip(lit));
+        let unlit = finder.behind.iter_mut().zip(behind.iter().zip(unlit));
+        lit.chain(unlit).for_each(|(data, plane)| *data = of(plane));
+        finder
+    }
+}
+
+impl FoundPlane {
+    fn new(view: &View<'_>, plane: &LitPlane, [x, y, width, height]: [u32; 4]) -> Self {
+        let eye_from_ndc = view.clip_from_eye().inverse();
+        let equation = plane.relative_to(view);
+        let size = DVec2::new(view.receivers.size.0.into(), view.receivers.size.1.into());
+        let ndc = |x: u32, y: u32| {
+            let at = DVec2::new(x.into(), y.into()) * 2.0 / size - 1.0;
+            [at.x as f32, -at.y as f32]
+        };
+        let across = eye_from_ndc.transpose() * equation;
+        let shifted = [0, 1].map(|i| equation.truncate().dot(eye_from_ndc.col(i).truncate()).abs());
+        let snapped = DVec2::from(shifted) * 2.0 * SPREAD * f64::from(view.receivers.snapping) / size;
+        Self {
+            across: across.as_vec4().to_array(),
+            normal: equation.truncate().as_vec3().to_array(),
+            snapped: snapped.element_sum() as f32,
+            low: ndc(x, y + height),
+            high: ndc(x + width, y),
+        }
+    }
+}
+
+/// The finder's uniform.
+pub(crate) struct Finder {
+    pub layout: wgpu::BindGroupLayout,
+    pub bind_group: wgpu::BindGroup,
+    buffer: wgpu::Buffer,
+}
+
+impl Finder {
+    pub fn new(gpu: &Gpu) -> Self {
+        let layout = layout(gpu, "planes", wgpu::ShaderStages::VERTEX_FRAGMENT, &[UNIFORM]);
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let buffer = gpu.buffer("planes", &[PlaneFinder::default()], usage);
+        let bind_group = bind(gpu, "planes", &layout, &[buffer.as_entire_binding()]);
+        Self { layout, bind_group, buffer }
+    }
+
+    /// For the planes of a light.
+    pub fn upload(&self, passes: &mut Passes<'_>, view: &View<'_>, chosen: &Chosen) {
+        let finder = PlaneFinder::new(view, chosen.planes(), chosen.behind(), chosen.rects());
+        passes.upload(&self.buffer, bytemuck::bytes_of(&finder));
+    }
+}
+
+/// The uniforms of projections, one a plane in one buffer.
+pub(crate) struct Shadows {
+    pub layout: wgpu::BindGroupLayout,
+    bind_group: wgpu::BindGroup,
+    buffer: wgpu::Buffer,
+    data: Vec<u8>,
+}
+
+impl Shadows {
+    pub fn new(gpu: &Gpu) -> Self {
+        let size = wgpu::BufferSize::new(size_of::<PlaneShadow>() as u64);
+        let binding = wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: true,
+            min_binding_size: size,
+        };
+        let layout = layout(gpu, "shadow on a plane", wgpu::ShaderStages::VERTEX_FRAGMENT, &[binding]);
+        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("shadows on planes"),
+            size: STRIDE * MOST as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let whole = wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer: &buffer, offset: 0, size });
+        let bind_group = bind(gpu, "shadow on a plane", &layout, &[whole]);
+        Self { layout, bind_group, buffer, data: Vec::new() }
+    }
+
+    /// For each plane, with the matrix that takes points relative to the eye to clip space, and
+    /// half the least w of what is seen there.
+    pub fn upload(
+        &mut self,
+        passes: &mut Passes<'_>,
+        view: &View<'_>,
+        planes: impl Iterator<Item = (LitPlane, DMat4, f64)>,
+    ) {
+        self.data.clear();
+        for (plane, clip_from_eye, nearest) in planes.take(MOST) {
+            let data = PlaneShadow::new(view, &plane, &clip_from_eye, nearest);
+            self.data.extend_from_slice(bytemuck::bytes_of(&data));
+            self.data.resize(self.data.len().next_multiple_of(STRIDE as usize), 0);
+        }
+        passes.upload(&self.buffer, &self.data);
+    }
+
+    /// Binds those of a plane as group 0.
+    pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, plane: usize) {
+        pass.set_bind_group(0, &self.bind_group, &[(plane as u64 * STRIDE) as u32]);
+    }
+
+    /// Bytes of GPU memory.
+    pub fn bytes(&self) -> u64 {
+        self.buffer.size()
+    }
+}
+
+impl PlaneShadow {
+    fn new(view: &View<'_>, plane: &LitPlane, clip_from_eye: &DMat4, nearest: f64) -> Self {
+        let eye = view.camera.eye - plane.origin;
+        Self {
+            clip_from_eye: clip_from_eye.as_mat4().to_cols_array_2d(),
+            plane: plane.relative_to(view).as_vec4().to_array(),
+            light: (plane.light - eye * plane.inverse_height).as_vec3().to_array(),
+            inverse_height: plane.inverse_height as f32,
+            eye: eye.as_vec3().to_array(),
+            nearest: nearest as f32,
+            least: plane.least as f32,
+            highest: plane.highest.min(f32::MAX.into()) as f32,
+            ..Self::default()
+        }
+    }
+}

@@ -1,0 +1,52 @@
+// needs: plane_finder
+// What is in the shadow of a plane's casters, and in the plane, has no light.
+
+struct Plane {
+    @builtin(position) position: vec4f,
+    // Handed over, since an index that a pixel could choose makes slow reading.
+    @location(0) @interpolate(flat) across: vec4f,
+    @location(1) @interpolate(flat) normal: vec4f,
+}
+
+// A rectangle of two triangles.
+fn rectangle(plane: FoundPlane, index: u32) -> Plane {
+    var corners = array(vec2u(0u, 0u), vec2u(1u, 0u), vec2u(0u, 1u), vec2u(0u, 1u), vec2u(1u, 0u), vec2u(1u, 1u));
+    let place = select(plane.low, plane.high, corners[index] == vec2u(1u));
+    return Plane(vec4f(place, 0.0, 1.0), plane.across, vec4f(plane.normal, plane.snapped));
+}
+
+// The instance is the number of the plane.
+@vertex
+fn around(@builtin(vertex_index) index: u32, @builtin(instance_index) number: u32) -> Plane {
+    return rectangle(finder.planes[number], index);
+}
+
+@vertex
+fn around_behind(@builtin(vertex_index) index: u32, @builtin(instance_index) number: u32) -> Plane {
+    return rectangle(finder.behind[number], index);
+}
+
+fn is_dark(in: Plane, casts_only: bool) -> bool {
+    let depth = textureLoad(receiver_depth, vec2i(in.position.xy), 0);
+    let shown = shown_at(in.position.xy, depth);
+    let is_there = depth != finder.eye.background_depth && (shown.surface.casts || !casts_only);
+    return is_there && is_in_plane(shown, in.across, in.normal);
+}
+
+// Where the stencil says that shadows fall.
+@fragment
+fn dark(in: Plane) -> @location(0) f32 {
+    if !is_dark(in, false) {
+        discard;
+    }
+    return 0.0;
+}
+
+// On planes that face away from the light.
+@fragment
+fn dark_behind(in: Plane) -> @location(0) f32 {
+    if !is_dark(in, true) {
+        discard;
+    }
+    return 0.0;
+}
