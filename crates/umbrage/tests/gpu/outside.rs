@@ -96,7 +96,7 @@ fn a_registry_without_it_does_not_know_it() {
     let text = umbrage::parse("cascaded:filter=veil").unwrap_err().to_string();
     assert!(text.contains("`veil` is not in its range (pcf, shadow-map"), "{text}");
     let text = registry.parse("lispsm:filter=pcss").unwrap_err().to_string();
-    assert!(text.contains("esm, veil"), "warps can't be looked up by `pcss`: {text}");
+    assert!(text.contains("smoothies, veil"), "warps can't be looked up by `pcss`: {text}");
 }
 
 #[test]

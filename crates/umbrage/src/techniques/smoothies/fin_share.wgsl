@@ -1,12 +1,13 @@
 // needs: map_edges
-// How far from a light's centre an edge is, seen from what lies behind the edge's smoothie: 0 there,
-// 1 on the light's rim.
+// How far from a light's centre an edge is, seen from what lies behind the edge's smoothie: 0
+// there, 1 on the light's rim.
 //
 // From a receiver p the point A is in line with the point e = (A − P b) / (1 − b/r) of the plane
-// through the light's centre: b and r are the distances of A and p from that plane, and P is the way
-// to p, as long as reaches to distance 1. So what is divided by 1 − b/r (SG "Rendering Fake Soft
-// Shadows with Smoothies", "Computing Alpha") is a way on the light, which has the light's shape.
-// The nearest point of the edge, from there, counts: neighbours need no corners between them.
+// through the light's centre: b and r are the distances of A and p from that plane, and P is the
+// way to p, as long as reaches to distance 1. So what is divided by 1 − b/r (SG "Rendering Fake
+// Soft Shadows with Smoothies", "Computing Alpha") is a way on the light, which has the light's
+// shape. The nearest point of the edge, from there, counts: neighbours need no corners between
+// them.
 
 // The light in the space where it is a unit sphere, disc, square or segment, as `area_light.wgsl`
 // has it.
@@ -37,8 +38,8 @@ const LINE: u32 = 3u;
 
 // How wide a line is taken to be, over its half length.
 const LINE_WIDTH: f32 = 1e-3;
-// A part of the edge that is as near to the receiver's own distance as this, over its farthest part,
-// is not looked at.
+// A part of the edge that is as near to the receiver's own distance as this, over its farthest
+// part, is not looked at.
 const CONTACT: f32 = 1e-4;
 
 // A point of the smoothie, and what it stands on.
@@ -145,9 +146,9 @@ fn end_seen(p: vec3f, line: Line) -> End {
     return End(p - line.at * scale, 1.0 - scale * line.share, b);
 }
 
-// The smoothie of an edge from `start` to `end` at a point `at`, all in the light's space, where what
-// the light sees lies at depth `behind`; that of `at` is `depth`, and `per_metre` how depth changes
-// under parallel light. `in_squares`: the light is a square or a line.
+// The smoothie of an edge from `start` to `end` at a point `at`, all in the light's space, where
+// what the light sees lies at depth `behind`; that of `at` is `depth`, and `per_metre` how depth
+// changes under parallel light. `in_squares`: the light is a square or a line.
 fn smoothie_at(start: vec3f, end: vec3f, at: vec3f, depth: f32, per_metre: f32, behind: f32, in_squares: bool) -> Smoothie {
     let is_parallel = smoothie_light.is_parallel != 0u;
     let normal = select(plane_of_light(at), vec3f(0.0, 0.0, 1.0), is_parallel);

@@ -57,8 +57,8 @@ fn fin_of_texels(edge: ContourEdge, vertex: u32) -> FinCorner {
 // How much of the light's extent the penumbra of a point has at most where there are receivers:
 // under parallel light the way from the point to the farthest of them.
 //
-// A way that starts within the light's extent of the point leaves the box around the receivers where
-// it leaves the first pair of its sides.
+// A way that starts within the light's extent of the point leaves the box around the receivers
+// where it leaves the first pair of its sides.
 fn most_of_extent(p: vec3f, per_metre: f32) -> f32 {
     let way = way_of_light(p);
     let reach = smoothie_light.reach;
@@ -197,8 +197,8 @@ struct Least {
 }
 
 // How far the smoothie is before what the light sees behind it, so that halves of floats tell both
-// apart however near they are: from a point 1 − b/r. Where there is nothing behind, its depth, from a
-// point the inverse of its distance.
+// apart however near they are: from a point 1 − b/r. Where there is nothing behind, its depth, from
+// a point the inverse of its distance.
 fn before(depth: f32, behind: f32) -> f32 {
     let is_parallel = smoothie_light.is_parallel != 0u;
     let gap = (depth - behind) / select(depth, 1.0, is_parallel);

@@ -55,11 +55,11 @@ settings! {
         /// What stands on a silhouette edge: fins at the edge's distance, or sheets and cones that
         /// end where the penumbra does.
         geometry: Geometry = Geometry::Smoothies,
-        /// Width of the fins; 0 makes them as wide as the light. Under a hard light some texels hide
-        /// the steps of the map.
+        /// Width of the fins; 0 makes them as wide as the light. Under a hard light some texels
+        /// hide the steps of the map.
         width: f64 = 0.0, in 0.0..=64.0, unit "texels",
-        /// Narrows the penumbra by how near blocker and receiver are. Without it shadows are as soft
-        /// at the contact as far away.
+        /// Narrows the penumbra by how near blocker and receiver are. Without it shadows are as
+        /// soft at the contact as far away.
         remap: bool = true,
         /// Texels of the map that decide about a point: four, each for itself, or one.
         samples: Samples = Samples::Four,
