@@ -1,11 +1,14 @@
 //! Smoothies: the outer half of penumbrae against the closed form.
 
-use crate::common::{gpu, pairs};
+use crate::common::{gpu, pairs, visibility};
 use crate::penumbra::{Case, Profile, crossing};
-use umbrage::core::LightShape;
-use umbrage::core::glam::{DMat3, DVec2, DVec3};
+use std::f64::consts::FRAC_PI_2;
+use umbrage::core::glam::{DAffine3, DMat3, DVec2, DVec3};
 use umbrage::core::light_view::LightView;
+use umbrage::core::{Camera, Light, LightShape, Material, Scene, primitive};
 use umbrage::{Gpu, find};
+use umbrage_reference::closed_form::{past_half_plane, sphere_above_plane};
+use umbrage_renderer::{LightPass, Renderer};
 
 /// Allowed error of the width, as a share of it.
 const TOLERANCE: f64 = 0.1;
@@ -138,4 +141,62 @@ fn outer_penumbrae_of_suns_are_right() {
         // From 0.4 degrees to six.
         angle_deg: 20.0 * size / position.y,
     }));
+}
+
+/// Pixels across and down the picture of a wall's foot, and metres of each.
+const FOOT: (u32, u32) = (256, 96);
+const PIXEL: f64 = 0.004;
+
+/// A wall that stands on a floor, its free edge upright above the origin, under a sphere light; seen
+/// from above, where its shadow begins. Rows go along the shadow.
+fn wall(floor_casts: bool) -> Scene {
+    let light = LightShape::Sphere { position: FOOT_LIGHT, radius: FOOT_RADIUS };
+    let mut scene = Scene { lights: vec![Light::new(light)], ..Scene::default() };
+    let plane = scene.add_mesh(primitive::plane());
+    let material = scene.add_material(Material::default());
+    scene.place(plane, material, DAffine3::from_scale(DVec3::splat(40.0)));
+    scene.instances[0].casts = floor_casts;
+    let upright = DMat3::from_rotation_x(FRAC_PI_2) * DMat3::from_diagonal(DVec3::new(20.0, 1.0, 8.0));
+    scene.place(plane, material, DAffine3 { matrix3: upright, translation: DVec3::new(-10.0, 4.0, 0.0) });
+    let half = 0.5 * PIXEL * f64::from(FOOT.1);
+    let target = DVec3::new(0.0, 0.0, half);
+    let fov_y_deg = 2.0 * (half / 2.0).atan().to_degrees();
+    scene.camera = Camera { eye: target + DVec3::Y * 2.0, target, up: DVec3::NEG_Z, fov_y_deg, near: 0.02 };
+    scene
+}
+
+const FOOT_LIGHT: DVec3 = DVec3::new(0.0, 6.0, -4.0);
+const FOOT_RADIUS: f64 = 1.5;
+
+#[test]
+fn shadows_are_sharp_at_the_contact_and_widen_from_there() {
+    let gpu = gpu();
+    let truth = |x: f64, z: f64| {
+        let p = DVec3::new(x, 0.0, z);
+        sphere_above_plane(p, past_half_plane(p, DVec3::ZERO, DVec3::Y, DVec3::NEG_X), FOOT_LIGHT, FOOT_RADIUS)
+    };
+    let place = |column: f64| (column + 0.5 - 0.5 * f64::from(FOOT.0)) * PIXEL;
+    for floor_casts in [true, false] {
+        let scene = wall(floor_casts);
+        let technique = find("smoothies").unwrap().settings(&[]).unwrap().make(&gpu).unwrap();
+        let mut renderer =
+            Renderer::new(&gpu, &scene, FOOT.0, FOOT.1, vec![LightPass { light: 0, technique }]).unwrap();
+        let seen = visibility(&mut renderer, &scene);
+        for row in 1..FOOT.1 {
+            let z = (f64::from(row) + 0.5) * PIXEL;
+            let (mut dark, mut lit) = (0.0, 10.0);
+            for _ in 0..60 {
+                let middle = 0.5 * (dark + lit);
+                *if truth(middle, z) < 1.0 - 1e-7 { &mut dark } else { &mut lit } = middle;
+            }
+            let columns: Vec<f64> = (0..FOOT.0).map(|x| f64::from(seen[(x, row)])).collect();
+            let [start, end] = [0.02, 0.98].map(|level| place(crossing(&columns, level)));
+            let what = format!(
+                "floor casts: {floor_casts}, {z:.3} m from the foot: {start:.4} to {end:.4}, truth 0 to {dark:.4}"
+            );
+            // Two pixels for the texels of the map and of the picture.
+            assert!((end - start - 0.96 * dark).abs() < 0.1 * dark + 2.0 * PIXEL, "{what}");
+            assert!(start.abs() < 2.0 * PIXEL, "{what}");
+        }
+    }
 }
