@@ -26,7 +26,8 @@ cargo xtask COMMAND
   test    run the whole test suite
   portable
           check that the library compiles for browsers, and with the oldest toolchain that is promised
-  browser compile every shader in Chromium, whose compiler of WGSL is another one than wgpu's
+  browser compile every shader in Chromium, whose compiler of WGSL is another one than wgpu's, and draw a picture with
+          every technique there
   soak MINUTES
           draw with all techniques while everything changes: memory has to stay level, and pictures right
   validation

@@ -20,6 +20,7 @@ mod overlay;
 mod radiance;
 #[cfg(not(target_family = "wasm"))]
 mod read_back;
+mod read_later;
 mod shading;
 mod targets;
 mod tonemap;

@@ -1,7 +1,7 @@
 //! What a renderer hands out, read back for files and tests: its picture, and what it is made of.
 //! All of it waits for the device; in a browser, `umbrage::read::later` reads the picture.
 
-use crate::{Renderer, lit::Target, no_pass};
+use crate::{Renderer, lit::Target};
 use umbrage::{Answer, DebugView, Error, read};
 use umbrage_core::{Camera, Image};
 
@@ -37,10 +37,6 @@ impl Renderer {
             Target::Radiance(target, _) => target.read(&self.gpu),
             Target::Visibility(..) => Answer::Visibility.refuse(),
         }
-    }
-
-    fn target(&self, pass: usize) -> Result<&Target, Error> {
-        self.lights.get(pass).map(|lit| &lit.target).ok_or_else(|| no_pass(pass))
     }
 
     /// Depth along the view direction in metres, 0 where nothing is.

@@ -135,7 +135,8 @@ impl Passes<'_> {
         }
     }
 
-    /// A render pass, timed under its label, and its fragments counted where the recorder does that.
+    /// A render pass, timed under its label, and its fragments counted where the recorder does
+    /// that.
     pub fn render(
         &mut self,
         label: &str,

@@ -47,7 +47,8 @@ fn warped_maps_of_a_large_ground_show_what_stands_on_it() {
     let direction = DVec3::new(0.2, -0.8, -1.0).normalize();
     let sun = LightShape::Directional { direction, angle_deg: 0.0 };
     let mut scene = boxes(1.0, DVec3::new(0.6, 1.5, 0.6), &row, camera, vec![sun]);
-    // In pieces, since rasterisers may give a triangle of kilometres under the camera another depth.
+    // In pieces, since rasterisers may give a triangle of kilometres under the camera another
+    // depth.
     let floor = scene.instances.remove(0);
     for (x, z) in (0..64).map(|i| (f64::from(i % 8), f64::from(i / 8))) {
         let middle = DVec3::new(250.0 * x - 875.0, 0.0, 250.0 * z - 875.0);

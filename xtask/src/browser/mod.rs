@@ -1,4 +1,7 @@
-//! Every shader in a real browser: Chromium's compiler of WGSL, Tint, is another one than wgpu's.
+//! Every shader, and a picture with every technique, in a real browser: Chromium's compiler of WGSL,
+//! Tint, is another one than wgpu's, and so is what checks and runs the commands.
+
+mod pictures;
 
 use crate::shell;
 use anyhow::{Context, Result, bail, ensure};
@@ -8,7 +11,7 @@ use std::process::{Child, Command, Stdio};
 use std::{fs, sync::mpsc, thread, time::Duration};
 
 const FOLDER: &str = "target/browser";
-const PAGE: &str = include_str!("browser.html");
+const PAGE: &str = include_str!("shaders.html");
 
 /// Names under which Chromium is found.
 const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
@@ -27,14 +30,15 @@ const FLAGS: [&str; 10] = [
     "--enable-logging=stderr",
 ];
 
-/// Time that all shaders together may take.
+/// Time that a page may say nothing.
 const PATIENCE: Duration = Duration::from_secs(300);
 
 /// Makes every shader module, and every compute pipeline, in Chromium, and fails where one fails or
-/// comes with a warning. Where there is no Chromium it says so.
+/// comes with a warning; then draws a picture with every technique there. Where there is no Chromium
+/// it says so.
 pub fn run() -> Result<()> {
     let Some(browser) = BROWSERS.into_iter().find(|name| starts(name)) else {
-        println!("no shader was checked, since there is no Chromium: {}", BROWSERS.join(", "));
+        println!("nothing was checked, since there is no Chromium: {}", BROWSERS.join(", "));
         return Ok(());
     };
     fs::create_dir_all(FOLDER)?;
@@ -48,6 +52,12 @@ pub fn run() -> Result<()> {
     shell::run(write)?;
     let page = folder.join("shaders.html");
     fs::write(&page, PAGE.replace("SHADERS", &pairs(&sources)?))?;
+    report(&said_by(browser, &folder, &page)?)?;
+    pictures::run(browser, &folder)
+}
+
+/// What a page says in the browser.
+fn said_by(browser: &str, folder: &Path, page: &Path) -> Result<Vec<String>> {
     let mut command = Command::new(browser);
     command.args(FLAGS).arg(format!("--user-data-dir={}", folder.join("profile").display()));
     command.arg(format!("file://{}", page.display())).stdout(Stdio::null()).stderr(Stdio::piped());
@@ -55,7 +65,7 @@ pub fn run() -> Result<()> {
     let found = listen(&mut child);
     child.kill()?;
     child.wait()?;
-    report(&found?)
+    found
 }
 
 fn starts(program: &str) -> bool {
