@@ -1,5 +1,5 @@
-//! One picture with every technique, in a browser or anywhere, and how far each is from the truth: for
-//! `cargo xtask browser`. Prints a line for each technique: its id, `mae` and `interior_pct`.
+//! One picture with every technique, in a browser or anywhere, and how far each is from the truth:
+//! for `cargo xtask browser`. Prints a line for each technique: its id, `mae` and `interior_pct`.
 
 use umbrage::core::glam::DVec3;
 use umbrage::core::{Light, LightShape, Scene, scenes};

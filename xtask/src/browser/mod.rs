@@ -1,5 +1,5 @@
-//! Every shader, and a picture with every technique, in a real browser: Chromium's compiler of WGSL,
-//! Tint, is another one than wgpu's, and so is what checks and runs the commands.
+//! Every shader, and a picture with every technique, in a real browser: Chromium's compiler of
+//! WGSL, Tint, is another one than wgpu's, and so is what checks and runs the commands.
 
 mod pictures;
 
@@ -34,8 +34,8 @@ const FLAGS: [&str; 10] = [
 const PATIENCE: Duration = Duration::from_secs(300);
 
 /// Makes every shader module, and every compute pipeline, in Chromium, and fails where one fails or
-/// comes with a warning; then draws a picture with every technique there. Where there is no Chromium
-/// it says so.
+/// comes with a warning; then draws a picture with every technique there. Where there is no
+/// Chromium it says so.
 pub fn run() -> Result<()> {
     let Some(browser) = BROWSERS.into_iter().find(|name| starts(name)) else {
         println!("nothing was checked, since there is no Chromium: {}", BROWSERS.join(", "));

@@ -16,7 +16,8 @@ const EXAMPLE: [&str; 4] = ["--package", "umbrage-renderer", "--example", "pictu
 /// How much larger a mean error may be than here: another rasteriser moves edges.
 const MAE_BEYOND: f64 = 0.001;
 
-/// How much less of the interior may be right than here, per cent: a few pixels of so small a picture.
+/// How much less of the interior may be right than here, per cent: a few pixels of so small a
+/// picture.
 const INTERIOR_BELOW: f64 = 0.05;
 
 /// A technique's `mae` and `interior_pct`.

@@ -73,7 +73,7 @@ settings! {
         bias: f64 = 1.0, in 0.0..=100.0, live true,
         /// What keeps a surface from shadowing itself: the receiver's own plane and what is known
         /// of rounding, or, as in the classic texts, a constant and a multiple of the slope, tuned
-        /// by hand (ZA 3.1; SG "Shadow Mapping").
+        /// by hand (ZA 2.3.2; SG "Shadow Mapping").
         offset: Offset = Offset::Auto,
         /// The classic offset's constant part, along the light.
         constant: f64 = 0.01, in 0.0..=1000.0, unit "m", live true,
