@@ -5,18 +5,19 @@
 struct PointLookup {
     // Relative to the eye.
     here: vec3f,
-    // How many neighbours there are, and layers of shares for each of them.
-    count: u32,
-    neighbours: array<vec4f, 2>,
+    // Layers of shares for each neighbour.
     layers: u32,
-    // How far behind what a pixel shows the map may be and still show the same, as a share of the
-    // depth.
-    threshold: f32,
-    pad: vec2u,
+    neighbours: array<vec4f, 2>,
 }
 
 @group(2) @binding(0) var<uniform> lookup: PointLookup;
 @group(2) @binding(1) var shares: texture_2d_array<f32>;
+
+// Neighbours that points have.
+override NEIGHBOURS: u32 = 2u;
+// How far behind what a pixel shows the map may be and still show the same, as a share of the
+// depth.
+override THRESHOLD: f32 = 0.005;
 
 // More than all of the light: no blocker was found between a point and its neighbour.
 const NONE: f32 = 2.0;
@@ -27,6 +28,14 @@ fn counted(found: f32) -> f32 {
     return select(found, 0.5, found > 1.0);
 }
 
+// Of the piece up to one neighbour; `above` is how far the point is over the receiver's plane.
+fn share_to(neighbour: u32, found: f32, receiver: vec3f, surface: Surface, above: f32) -> f32 {
+    // The receiver's own plane hides what is behind it.
+    let neighbour_above = dot(surface.normal, lookup.neighbours[neighbour].xyz - receiver);
+    let is_cut = surface.casts && above > 0.0 && neighbour_above < 0.0;
+    return counted(min(found, select(NONE, above / (above - neighbour_above), is_cut)));
+}
+
 fn shares_at(point: MapPoint, pixel: Pixel) -> vec2f {
     let texel = vec2i(point.texel);
     let stored = load_depth(texel, point.layer);
@@ -34,20 +43,20 @@ fn shares_at(point: MapPoint, pixel: Pixel) -> vec2f {
     if !is_lit(point, offset, stored) {
         return vec2f(0.0);
     }
+    if NEIGHBOURS == 0u {
+        return vec2f(1.0);
+    }
     // The texel may show what is behind the receiver, and its shares are then no concern of it.
-    let is_another = is_lit_beyond(point, offset, stored, -lookup.threshold * point.depth);
+    let is_another = is_lit_beyond(point, offset, stored, -THRESHOLD * point.depth);
     let receiver = position_eye(map.eye, pixel.at, pixel.depth);
     let above = dot(pixel.surface.normal, lookup.here - receiver);
-    var seen = vec2f(0.5);
-    for (var i = 0u; i < lookup.count; i++) {
-        let found = textureLoad(shares, texel, point.layer + i * lookup.layers, 0).x;
-        // The receiver's own plane hides what is behind it.
-        let neighbour_above = dot(pixel.surface.normal, lookup.neighbours[i].xyz - receiver);
-        let is_cut = pixel.surface.casts && above > 0.0 && neighbour_above < 0.0;
-        let horizon = select(NONE, above / (above - neighbour_above), is_cut);
-        seen[i] = counted(min(select(found, NONE, is_another), horizon));
+    let first = select(textureLoad(shares, texel, point.layer, 0).x, NONE, is_another);
+    let seen = share_to(0u, first, receiver, pixel.surface, above);
+    if NEIGHBOURS == 1u {
+        return vec2f(seen);
     }
-    return select(seen, vec2f(1.0), lookup.count == 0u);
+    let second = select(textureLoad(shares, texel, point.layer + lookup.layers, 0).x, NONE, is_another);
+    return vec2f(seen, share_to(1u, second, receiver, pixel.surface, above));
 }
 
 @fragment
@@ -57,7 +66,7 @@ fn point_shares(@builtin(position) at: vec4f) -> @location(0) vec2f {
     let split = layer_of_pixel(pixel, first);
     let point = map_point(pixel, first, split.layer);
     if is_settled(pixel, point) {
-        return vec2f(settled_share(pixel, point) * select(0.5, 1.0, lookup.count == 0u));
+        return vec2f(0.5 * settled_share(pixel, point));
     }
     return shares_at(point, pixel);
 }

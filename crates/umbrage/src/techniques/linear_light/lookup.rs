@@ -18,14 +18,11 @@ const SHARES: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
 
 /// Pipelines of all points.
 pub(super) struct Pipelines {
-    /// Of a point with neighbours.
-    pub shares: Lookup,
-    /// Of a light that is one point.
-    pub alone: Lookup,
+    /// Of a light that is one point, of ends and of points between two others.
+    lookups: [Lookup; 3],
     own: wgpu::BindGroupLayout,
     both: wgpu::BindGroupLayout,
-    /// Where the second end has its share of the piece: first or second.
-    pieces: [wgpu::RenderPipeline; 2],
+    piece: wgpu::RenderPipeline,
     seen: Option<Seen>,
 }
 
@@ -38,7 +35,7 @@ struct Seen {
 }
 
 impl Pipelines {
-    pub fn new(gpu: &Gpu) -> Self {
+    pub fn new(gpu: &Gpu, threshold: f64) -> Self {
         let shares = wgpu::BindingType::Texture {
             sample_type: FLOATS,
             view_dimension: wgpu::TextureViewDimension::D2Array,
@@ -48,20 +45,24 @@ impl Pipelines {
         let both = layout(gpu, "both ends", wgpu::ShaderStages::FRAGMENT, &[fullscreen::texture(FLOATS); 2]);
         let module = super::PIECES.module(gpu);
         let target = weighted();
-        let piece = |second: f64| {
-            let (constants, target) = (&[("SECOND", second)], target.clone());
-            Fullscreen { label: "piece", module: &module, entry: "piece", groups: &[&both], target, constants }
-                .pipeline(gpu)
+        let piece =
+            Fullscreen { label: "piece", module: &module, entry: "piece", groups: &[&both], target, constants: &[] };
+        let lookup = |neighbours: f64| {
+            let constants = [("NEIGHBOURS", neighbours), ("THRESHOLD", threshold)];
+            Lookup::new(gpu, &super::LOOKUP, Blend::Off, &constants, Some(own.clone()))
         };
-        let lookup = || Lookup::new(gpu, &super::LOOKUP, Blend::Off, &[], Some(own.clone()));
         Self {
-            shares: lookup().into("point_shares", SHARES),
-            alone: lookup(),
-            pieces: [0.0, 1.0].map(piece),
+            lookups: [lookup(0.0), lookup(1.0).into("point_shares", SHARES), lookup(2.0).into("point_shares", SHARES)],
+            piece: piece.pipeline(gpu),
             own,
             both,
             seen: None,
         }
+    }
+
+    /// The look-up of a point with so many neighbours.
+    pub fn of(&mut self, neighbours: usize) -> &mut Lookup {
+        &mut self.lookups[neighbours.min(2)]
     }
 
     /// For the texture of a point's channels.
@@ -98,19 +99,18 @@ impl Pipelines {
         if let [point] = points {
             let mut pass = passes.render("visibility", &[visibility.overwrite()], None);
             let Some(made) = point.made() else { return 0 };
-            return self.alone.draw(&mut pass, receivers, &point.maps.input, Some(&made.look_up));
+            return self.lookups[0].draw(&mut pass, receivers, &point.maps.input, Some(&made.look_up));
         }
         let Some(seen) = &self.seen else { return 0 };
         let mut draws = 0;
         for (i, point) in points.iter().enumerate() {
             draws += self.record_point(passes, receivers, point, &seen.views[i % 2]);
             if i > 0 {
-                let is_last = i + 1 == points.len();
                 let load = if i == 1 { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
                 let mut pass = passes.render("pieces", &[attachment(&visibility.view, load)], None);
                 let weight = weight(i - 1, points.len() - 1);
                 pass.set_blend_constant(wgpu::Color { r: weight, g: weight, b: weight, a: weight });
-                pass.set_pipeline(&self.pieces[usize::from(!is_last)]);
+                pass.set_pipeline(&self.piece);
                 pass.set_bind_group(0, &seen.both[(i - 1) % 2], &[]);
                 pass.draw(0..3, 0..1);
                 draws += 1;
@@ -130,12 +130,13 @@ impl Pipelines {
         let all = wgpu::LoadOp::Clear(wgpu::Color { r: 0.5, g: 0.5, b: 0.5, a: 0.5 });
         let mut pass = passes.render("visibility", &[attachment(target, all)], None);
         let Some(made) = point.made() else { return 0 };
-        self.shares.draw(&mut pass, receivers, &point.maps.input, Some(&made.look_up))
+        let lookup = &self.lookups[made.channels.len().min(2)];
+        lookup.draw(&mut pass, receivers, &point.maps.input, Some(&made.look_up))
     }
 
     pub fn bytes(&self) -> u64 {
         let seen = self.seen.as_ref().map_or(0, |seen| 2 * 4 * u64::from(seen.size.0) * u64::from(seen.size.1));
-        self.shares.bytes() + self.alone.bytes() + seen
+        self.lookups.iter().map(Lookup::bytes).sum::<u64>() + seen
     }
 }
 
@@ -152,12 +153,10 @@ fn weighted() -> wgpu::ColorTargetState {
 
 impl PointLookup {
     /// From positions relative to the eye; `layers` of shares for each neighbour.
-    pub(super) fn of(here: DVec3, neighbours: impl Iterator<Item = DVec3>, layers: u32, threshold: f64) -> Self {
-        let here = here.as_vec3().to_array();
-        let mut lookup = Self { here, layers, threshold: threshold as f32, ..Self::default() };
+    pub(super) fn of(here: DVec3, neighbours: impl Iterator<Item = DVec3>, layers: u32) -> Self {
+        let mut lookup = Self { here: here.as_vec3().to_array(), layers, ..Self::default() };
         for (place, neighbour) in lookup.neighbours.iter_mut().zip(neighbours) {
             *place = neighbour.as_vec3().extend(0.0).to_array();
-            lookup.count += 1;
         }
         lookup
     }

@@ -5,12 +5,9 @@
 @group(0) @binding(0) var first_shares: texture_2d<f32>;
 @group(0) @binding(1) var second_shares: texture_2d<f32>;
 
-// The place of the second end's share of this piece: 0 where it has no other piece.
-override SECOND: u32 = 1u;
-
 @fragment
 fn piece(@builtin(position) at: vec4f) -> @location(0) f32 {
     let first = textureLoad(first_shares, vec2i(at.xy), 0).x;
-    let second = textureLoad(second_shares, vec2i(at.xy), 0)[SECOND];
+    let second = textureLoad(second_shares, vec2i(at.xy), 0).y;
     return min(first + second, 1.0);
 }

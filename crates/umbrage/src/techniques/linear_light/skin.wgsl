@@ -54,8 +54,9 @@ override THRESHOLD: f32 = 0.005;
 
 // Faces of a cube.
 const VIEWS: u32 = 6u;
-// Texels that a skin is longer at both ends: maps are looked up at the middle of texels.
-const LONGER: f32 = 1.5;
+// Texels that a skin is longer at both ends: maps are looked up at the middle of texels, and those
+// of the other point may be larger.
+const LONGER: f32 = 3.0;
 // Least |w| of a corner as a share of its |x| or |y|, for each texel of the map, see
 // `map_depth.wgsl`.
 const LEAST_W: f32 = 1.5e-8;

@@ -34,7 +34,7 @@ impl LinearLight {
         Ok(Self {
             settings: settings.clone(),
             borders: Borders::new(gpu, settings),
-            pipelines: Pipelines::new(gpu),
+            pipelines: Pipelines::new(gpu, settings.threshold),
             shapes: Vec::new(),
             points: Vec::new(),
             draws: 0,
@@ -44,14 +44,13 @@ impl LinearLight {
     /// What shaders read of each point.
     fn place(&mut self, view: &View<'_>) {
         let places: Vec<_> = self.shapes.iter().map(|shape| shape.center().truncate()).collect();
-        let threshold = self.settings.threshold;
         let (origin, receivers) = (view.casters.origin(), view.casters.receivers_bounds());
         for (i, point) in self.points.iter_mut().enumerate() {
             let frame = point.maps.frame();
             point.data = LightPoint::of(&frame.views, frame.size, places[i], origin, &receivers);
             let from_eye = neighbours(i, places.len()).map(|j| places[j] - view.camera.eye);
             point.look_up_data =
-                PointLookup::of(places[i] - view.camera.eye, from_eye, frame.layers.count(), threshold);
+                PointLookup::of(places[i] - view.camera.eye, from_eye, frame.layers.count());
         }
     }
 
@@ -98,7 +97,7 @@ impl Technique for LinearLight {
         for (i, (point, shape)) in self.points.iter_mut().zip(&self.shapes).enumerate() {
             let light = Light { shape: shape.clone(), ..view.light.clone() };
             let seen = View { light: &light, ..*view };
-            let lookup = if count > 1 { &mut self.pipelines.shares } else { &mut self.pipelines.alone };
+            let lookup = self.pipelines.of(neighbours(i, count).count());
             point.maps.prepare(gpu, &seen, apart_m, lookup);
             point.make_room(gpu, &self.borders, &self.pipelines, neighbours(i, count).count());
         }

@@ -54,11 +54,8 @@ shader_struct! {
     /// See `linear_light.wgsl`.
     pub(super) struct PointLookup {
         here: [f32; 3],
-        count: u32,
-        neighbours: [[f32; 4]; 2],
         layers: u32,
-        threshold: f32,
-        pad: [u32; 2],
+        neighbours: [[f32; 4]; 2],
     }
 }
 
