@@ -194,3 +194,48 @@ fn a_thin_rectangle_is_its_axis() {
         assert!(s.mae < 0.0002, "{size}: {}", s.mae);
     }
 }
+
+#[test]
+fn odd_lights_and_meshes_leave_no_pixel_without_a_number() {
+    let gpu = gpu();
+    let mut broken = primitive::cube();
+    broken.positions[3].x = f32::NAN;
+    broken.positions[9].y = f32::INFINITY;
+    let ends = [
+        // Through the box, along one of its edges, in the floor, far away, and from the camera.
+        [DVec3::new(-2.0, 1.0, 0.0), DVec3::new(2.0, 1.1, 0.0)],
+        [DVec3::new(0.5, 1.5, -0.5), DVec3::new(0.5, 1.5, 0.5)],
+        [DVec3::ZERO, DVec3::X],
+        [DVec3::new(-1e6, 1e6, 0.0), DVec3::new(1e6, 1e6, 0.0)],
+        [DVec3::new(0.0, 4.0, 7.0), DVec3::new(0.0, 5.0, 7.0)],
+    ];
+    for [from, to] in ends {
+        let mut scene = box_scene(LightShape::Line { from, to });
+        let mesh = scene.add_mesh(broken.clone());
+        scene.place(mesh, 0, DAffine3::from_translation(DVec3::new(3.0, 1.0, 0.0)));
+        for set in ["size=128", "size=128,edges=map,samples=3", "size=1"] {
+            let seen = picture(&gpu, &scene, set);
+            assert!(seen.data.iter().all(|v| (0.0..=1.0).contains(v)), "{from} to {to}, {set}");
+        }
+    }
+}
+
+#[test]
+fn far_from_the_origin_a_line_has_the_same_shadows() {
+    let gpu = gpu();
+    let here = plates();
+    let mut far = here.clone();
+    let offset = DVec3::new(1e7, 0.0, -1e7);
+    far.camera.eye += offset;
+    far.camera.target += offset;
+    far.instances.iter_mut().for_each(|i| i.world_from_mesh.translation += offset);
+    if let LightShape::Line { from, to } = &mut far.lights[0].shape {
+        *from += offset;
+        *to += offset;
+    }
+    for set in ["size=512", "size=512,edges=map"] {
+        let (a, b) = (picture(&gpu, &here, set), picture(&gpu, &far, set));
+        let mae = a.data.iter().zip(&b.data).map(|(a, b)| f64::from((a - b).abs())).sum::<f64>() / a.data.len() as f64;
+        assert!(mae < 5e-4, "{set}: {mae}");
+    }
+}

@@ -3,6 +3,7 @@
 use super::channel::{Channel, into_layout};
 use super::edges::edge_skins;
 use super::options::{Edges, LinearLight};
+use super::pictures::Skinned;
 use super::point::{Made, Point};
 use super::skins::Skins;
 use super::steps::Steps;
@@ -77,27 +78,49 @@ impl Borders {
 
     /// Draws a channel; returns the number of draws.
     pub fn record(&self, passes: &mut Passes<'_>, view: &View<'_>, job: &Job<'_>) -> u32 {
-        let edges = job.edges.filter(|_| job.other.is_some());
-        if let Some(edges) = edges {
-            edges.find(passes, view.casters, job.target.maps.frame());
-        }
+        self.find_edges(passes, view, job);
         let mut draws = 0;
         for (i, layer) in job.target.layers().enumerate() {
             let Some(into) = job.channel.upload(passes, layer, job.to_other) else { continue };
-            let colors = &[into.attachment()];
-            if let Some(edges) = edges {
-                let target = EdgeTarget { label: "skins", colors, depth: None };
-                draws += edges.record(passes, (i, 0), Some(&into.bind_group), target);
-                continue;
-            }
-            let mut pass = passes.render("skins", colors, None);
-            let steps = job.other.and_then(|other| other.steps.as_ref());
-            if let (Some((_, skins)), Some((list, source))) = (&self.steps, steps) {
-                skins.draw(&mut pass, (source, list), &into.bind_group);
-                draws += 1;
-            }
+            draws += self.draw(passes, job, (i, &into.bind_group), into.attachment(), false);
         }
         draws
+    }
+
+    /// Draws the picture of a layer's skins.
+    pub fn record_picture(&self, passes: &mut Passes<'_>, view: &View<'_>, job: &Job<'_>, skinned: &Skinned) {
+        let Some(i) = job.target.layers().position(|layer| Some(layer) == skinned.layer()) else { return };
+        let Some(into) = skinned.layer().and_then(|layer| job.channel.upload(passes, layer, job.to_other)) else {
+            return;
+        };
+        self.find_edges(passes, view, job);
+        self.draw(passes, job, (i, &into.bind_group), skinned.attachment(), true);
+    }
+
+    fn find_edges(&self, passes: &mut Passes<'_>, view: &View<'_>, job: &Job<'_>) {
+        if let Some(edges) = job.edges.filter(|_| job.other.is_some()) {
+            edges.find(passes, view.casters, job.target.maps.frame());
+        }
+    }
+
+    fn draw(
+        &self,
+        passes: &mut Passes<'_>,
+        job: &Job<'_>,
+        (i, into): (usize, &wgpu::BindGroup),
+        color: Option<wgpu::RenderPassColorAttachment<'_>>,
+        is_picture: bool,
+    ) -> u32 {
+        let colors = &[color];
+        if let Some(edges) = job.edges.filter(|_| job.other.is_some()) {
+            let target = EdgeTarget { label: "skins", colors, depth: None };
+            return edges.record(passes, (i, usize::from(is_picture)), Some(into), target);
+        }
+        let mut pass = passes.render("skins", colors, None);
+        let steps = job.other.and_then(|other| other.steps.as_ref());
+        let (Some((_, skins)), Some((list, source))) = (&self.steps, steps) else { return 0 };
+        skins.draw(&mut pass, (source, list), into, is_picture);
+        1
     }
 
     pub fn bytes(&self) -> u64 {

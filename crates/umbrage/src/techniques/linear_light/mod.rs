@@ -10,6 +10,7 @@ mod edges;
 mod light;
 mod lookup;
 mod options;
+mod pictures;
 mod point;
 mod skins;
 mod steps;
@@ -63,7 +64,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     limits: storage_buffers::<{ EdgePass::STORAGE_BUFFERS }>,
     hard: false,
     settings: SettingsOf::new::<LinearLight>(),
-    views: technique::NAMES,
+    views: pictures::NAMES,
     shaders: &[
         MAP_SHADERS[0],
         MAP_SHADERS[1],

@@ -138,3 +138,10 @@ fn exact_share(in: Skin) -> @location(0) f32 {
     let is_on_light = square > 0.0 && share >= -in.slack && share <= 1.0 + in.slack;
     return share_if(depth > 0.0 && is_between && is_on_light, share);
 }
+
+// For pictures: each skin adds a little, and a lot at the blocker's edge.
+@fragment
+fn shown_skin(in: Skin) -> @location(0) vec4f {
+    let at_edge = select(0.0, 1.0, abs(in.share) <= in.slack);
+    return vec4f(mix(vec3f(0.08, 0.16, 0.3), vec3f(0.9, 0.5, 0.1), at_edge), 1.0);
+}

@@ -2,9 +2,10 @@
 
 use super::channel::{NONE, least};
 use super::options::{LinearLight, Shares};
+use super::pictures;
 use super::steps::{GROUP, INDICES, MAPS, StepList};
 use super::uniform::VIEWS;
-use crate::fullscreen::{STORAGE, UNIFORM, bind, layout};
+use crate::fullscreen::{STORAGE, UNIFORM, additive, bind, layout};
 use crate::gpu::Gpu;
 use crate::shader::HostConstant;
 
@@ -16,7 +17,8 @@ pub(super) const CONSTANTS: &[HostConstant] =
 pub(super) struct Skins {
     /// Of the point whose steps are drawn: list, maps, views.
     source: wgpu::BindGroupLayout,
-    pipeline: wgpu::RenderPipeline,
+    /// Into a channel, and into a picture of it.
+    pipelines: [wgpu::RenderPipeline; 2],
     indices: wgpu::Buffer,
 }
 
@@ -24,8 +26,15 @@ impl Skins {
     /// `into` is the layout of what skins are drawn into.
     pub fn new(gpu: &Gpu, settings: &LinearLight, into: &wgpu::BindGroupLayout) -> Self {
         let source = layout(gpu, "steps of a point", wgpu::ShaderStages::VERTEX, &[STORAGE, MAPS, UNIFORM]);
+        let share = match settings.shares {
+            Shares::Exact => "exact_share",
+            Shares::Linear => "linear_share",
+        };
         Self {
-            pipeline: pipeline(gpu, settings, &source, into),
+            pipelines: [
+                pipeline(gpu, settings, [&source, into], share, least()),
+                pipeline(gpu, settings, [&source, into], "shown_skin", additive(pictures::FORMAT)),
+            ],
             indices: gpu.buffer("corners of skins", &corners(), wgpu::BufferUsages::INDEX),
             source,
         }
@@ -36,14 +45,15 @@ impl Skins {
         bind(gpu, "steps of a point", &self.source, &[list.buffer.as_entire_binding(), maps, point])
     }
 
-    /// Draws the steps of another point into a layer.
+    /// Draws the steps of another point into a layer, or into a picture of that.
     pub fn draw(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         (source, list): (&wgpu::BindGroup, &StepList),
         into: &wgpu::BindGroup,
+        is_picture: bool,
     ) {
-        pass.set_pipeline(&self.pipeline);
+        pass.set_pipeline(&self.pipelines[usize::from(is_picture)]);
         pass.set_bind_group(0, source, &[]);
         pass.set_bind_group(3, into, &[]);
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint16);
@@ -63,18 +73,16 @@ fn corners() -> Vec<u16> {
 fn pipeline(
     gpu: &Gpu,
     settings: &LinearLight,
-    source: &wgpu::BindGroupLayout,
-    into: &wgpu::BindGroupLayout,
+    [source, into]: [&wgpu::BindGroupLayout; 2],
+    entry: &str,
+    target: wgpu::ColorTargetState,
 ) -> wgpu::RenderPipeline {
     let module = super::STEP_SKINS.module(gpu);
     let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         bind_group_layouts: &[Some(source), None, None, Some(into)],
         ..Default::default()
     });
-    let entry = match settings.shares {
-        Shares::Exact => "exact_share",
-        Shares::Linear => "linear_share",
-    };
+    let threshold = [("THRESHOLD", settings.threshold)];
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("skins"),
         layout: Some(&pipeline_layout),
@@ -94,10 +102,10 @@ fn pipeline(
             module: &module,
             entry_point: Some(entry),
             compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &[("THRESHOLD", settings.threshold)],
+                constants: if entry == "shown_skin" { &[] } else { &threshold },
                 ..Default::default()
             },
-            targets: &[Some(least())],
+            targets: &[Some(target)],
         }),
         multiview_mask: None,
         cache: None,

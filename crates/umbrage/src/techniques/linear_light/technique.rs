@@ -4,18 +4,13 @@ use super::borders::{Borders, Job, neighbours};
 use super::light::points;
 use super::lookup::Pipelines;
 use super::options;
+use super::pictures::{Skinned, pictures};
 use super::point::Point;
-use super::uniform::{LightPoint, PointLookup, VIEWS};
+use super::uniform::{LightPoint, PointLookup};
 use crate::technique::{DebugView, Inside, Stats, Technique};
 use crate::{Error, Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
 use umbrage_core::light_view::LightView;
 use umbrage_core::{Light, LightShape};
-
-/// Maps of the light's first point, and for each texel its share of the piece to the next one.
-pub(super) const NAMES: &[&str] = &[
-    "map-0", "map-1", "map-2", "map-3", "map-4", "map-5", "shares-0", "shares-1", "shares-2", "shares-3", "shares-4",
-    "shares-5",
-];
 
 /// See the module above.
 pub(super) struct LinearLight {
@@ -25,6 +20,7 @@ pub(super) struct LinearLight {
     /// The points of the light.
     shapes: Vec<LightShape>,
     points: Vec<Point>,
+    skinned: Skinned,
     draws: u32,
 }
 
@@ -37,6 +33,7 @@ impl LinearLight {
             pipelines: Pipelines::new(gpu, settings.threshold),
             shapes: Vec::new(),
             points: Vec::new(),
+            skinned: Skinned::default(),
             draws: 0,
         })
     }
@@ -66,13 +63,15 @@ impl LinearLight {
         for (i, target) in self.points.iter().enumerate() {
             let Some(made) = target.made() else { continue };
             for (k, (channel, j)) in made.channels.iter().zip(neighbours(i, count)).enumerate() {
-                if !new[i] && !new[j] {
-                    continue;
-                }
                 let [here, there] = [i, j].map(|k| self.shapes[k].center().truncate());
                 let (edges, other) = (target.edges.get(k), self.points[j].made());
                 let job = Job { target, channel, edges, other, to_other: there - here };
-                draws += self.borders.record(passes, view, &job);
+                if new[i] || new[j] {
+                    draws += self.borders.record(passes, view, &job);
+                }
+                if (i, k) == (0, 0) {
+                    self.borders.record_picture(passes, view, &job, &self.skinned);
+                }
             }
         }
         for (point, new) in self.points.iter_mut().zip(new) {
@@ -93,6 +92,7 @@ impl Technique for LinearLight {
         let count = self.points.len();
         if count > 1 {
             self.pipelines.make_room(gpu, view.receivers.size);
+            self.skinned.make_room(gpu, self.settings.size);
         }
         for (i, (point, shape)) in self.points.iter_mut().zip(&self.shapes).enumerate() {
             let light = Light { shape: shape.clone(), ..view.light.clone() };
@@ -136,7 +136,7 @@ impl Inside for LinearLight {
     }
 
     fn stats(&self) -> Stats {
-        let mut stats = Stats { bytes: self.borders.bytes() + self.pipelines.bytes(), ..Stats::default() };
+        let mut stats = Stats { bytes: self.borders.bytes() + self.pipelines.bytes() + self.skinned.bytes(), ..Stats::default() };
         for point in &self.points {
             let of_maps = point.maps.stats();
             stats.triangles += of_maps.triangles + 1;
@@ -152,15 +152,11 @@ impl Inside for LinearLight {
         self.points.first().map_or(&[], |point| &point.maps.frame().views)
     }
 
+    fn inspect(&mut self, view: Option<&str>) {
+        self.skinned.inspect(view);
+    }
+
     fn debug_views(&self) -> Vec<DebugView<'_>> {
-        let Some(first) = self.points.first() else { return Vec::new() };
-        let Some(texture) = &first.maps.frame().texture else { return Vec::new() };
-        let maps = first.layers().map(|layer| DebugView { name: NAMES[layer as usize % VIEWS], texture, layer });
-        let shares = first.made().filter(|_| self.points.len() > 1).map(|made| &made.shares);
-        let of_shares = |texture| {
-            let named = move |layer| DebugView { name: NAMES[VIEWS + layer as usize % VIEWS], texture, layer };
-            first.layers().map(named)
-        };
-        maps.chain(shares.into_iter().flat_map(of_shares)).collect()
+        pictures(&self.points, &self.skinned)
     }
 }
