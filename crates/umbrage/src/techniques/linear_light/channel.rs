@@ -58,8 +58,8 @@ impl ChannelLayer {
     }
 }
 
-/// The texture of the channels of a point with so many neighbours, and the channels: as large as its
-/// maps, with all layers of the first channel before those of the second. `into` is
+/// The texture of the channels of a point with so many neighbours, and the channels: as large as
+/// its maps, with all layers of the first channel before those of the second. `into` is
 /// [`into_layout`], `resources` are the maps and the uniform of the point.
 pub(super) fn channels(
     gpu: &Gpu,

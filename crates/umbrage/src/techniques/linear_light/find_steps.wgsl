@@ -36,8 +36,8 @@ fn depth_at(texel: vec2i, layer: u32) -> f32 {
 }
 
 // 1 where depth steps from a blocker at `from` to a receiver at `to`, −1 where it does so the other
-// way, and 0 where both may be on one surface: planes stay planes in a map, so a steep one goes on
-// as it came.
+// way, and 0 where both may be on one surface: planes stay planes in a map, so a steep one
+// continues as it came.
 fn step_between(before: f32, start: f32, end: f32, after: f32) -> i32 {
     let farther = min(start, end);
     let least = find.threshold * farther;

@@ -35,9 +35,10 @@ settings! {
         /// What penumbras begin at: the edges of casters that bound shadows, or steps of depth in
         /// the maps. Alpha masks have steps and no edges.
         edges: Edges = Edges::Silhouettes,
-        /// How the share of the light is found in a penumbra with `edges = map`: by where the way from the receiver
-        /// past the blocker meets the light, or linear from the blocker to the border of its
-        /// shadow, which is the same where blocker, light, receiver and map are parallel.
+        /// How the share of the light is found in a penumbra with `edges = map`: by where the way
+        /// from the receiver past the blocker meets the light, or linear from the blocker to the
+        /// border of its shadow, which is the same where blocker, light, receiver and map are
+        /// parallel.
         shares: Shares = Shares::Exact,
         /// How far a blocker is in front of the receiver at least, as a share of its distance from
         /// the light, and how far off both planes: less belongs to one surface.

@@ -1,4 +1,5 @@
-//! Pictures of what is inside: maps, skins and channels of the light's first point, towards the next.
+//! Pictures of what is inside: maps, skins and channels of the light's first point, towards the
+//! next one.
 
 use super::point::Point;
 use super::uniform::VIEWS;
