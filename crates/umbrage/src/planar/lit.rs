@@ -27,7 +27,7 @@ pub(crate) struct LitPlane {
     pub least: f64,
     /// Around the shadows of all casters, as far as that is known, along `right` and `up`, metres.
     pub shadows: (DVec2, DVec2),
-    /// The highest that a caster's height h comes to as h / (1 − h / H), H that of the light.
+    /// The largest that a caster has of h / (1 − h / H), H that of the light.
     pub highest: f64,
 }
 

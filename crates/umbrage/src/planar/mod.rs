@@ -1,4 +1,4 @@
-//! Shadows that casters throw on planes: which planes a camera sees, which casters stand between a
+//! Shadows that casters cast on planes: which planes a camera sees, which casters stand between a
 //! plane and a light, and the projection through the light that draws them there.
 //!
 //! For a plane (n, d) and a light l the shadow of p is M p with M = (P·l) I − l Pᵀ (Blinn 1988; ZA
