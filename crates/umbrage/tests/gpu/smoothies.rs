@@ -147,8 +147,8 @@ fn outer_penumbrae_of_suns_are_right() {
 const FOOT: (u32, u32) = (256, 96);
 const PIXEL: f64 = 0.004;
 
-/// A wall that stands on a floor, its free edge upright above the origin, under a sphere light; seen
-/// from above, where its shadow begins. Rows go along the shadow.
+/// A wall that stands on a floor, its free edge upright above the origin, under a sphere light;
+/// seen from above, where its shadow begins. Rows go along the shadow.
 fn wall(floor_casts: bool) -> Scene {
     let light = LightShape::Sphere { position: FOOT_LIGHT, radius: FOOT_RADIUS };
     let mut scene = Scene { lights: vec![Light::new(light)], ..Scene::default() };
