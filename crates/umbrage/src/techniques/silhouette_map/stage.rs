@@ -73,8 +73,7 @@ impl SilhouetteStage {
         });
         let layers = (0..count).map(|i| {
             let depths = layer_view(maps, i);
-            let sampled =
-                [wgpu::BindingResource::TextureView(&depths), wgpu::BindingResource::Sampler(&self.plain)];
+            let sampled = [wgpu::BindingResource::TextureView(&depths), wgpu::BindingResource::Sampler(&self.plain)];
             let depths = bind(gpu, "depths", &self.depths, &sampled);
             Layer { points: layer_view(&points, i), depths, version: 0 }
         });
