@@ -151,7 +151,7 @@ fn above_horizon(position: vec3f, normal: vec3f) -> f32 {
     let extent = select(flat, textures.radius * sqrt(max(1.0 - sine * sine, 0.0)), textures.radius > 0.0);
     let t = clamp(height / max(extent, 1e-9), -1.0, 1.0);
     let segment = 0.5 + (t * sqrt(1.0 - t * t) + asin(t)) * 0.31830989;
-    return select(0.5 + 0.5 * t, segment, is_round);
+    return saturate(select(0.5 + 0.5 * t, segment, is_round));
 }
 
 @fragment
@@ -166,7 +166,7 @@ fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
     if HAS_NORMALS {
         share = select(1.0, above_horizon(position, shown.surface.normal), shown.surface.casts);
     }
-    if share == 0.0 {
+    if share < 1e-6 {
         return 0.0;
     }
     return min(share, past_casters(shown, position));
