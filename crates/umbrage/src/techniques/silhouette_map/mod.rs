@@ -86,7 +86,8 @@ impl Configure for SilhouetteMap {
 impl Filter for SilhouetteMap {
     fn make_on(&self, gpu: &Gpu, maps: &MapSetup) -> Result<Box<dyn Technique>, Error> {
         let stage = Box::new(SilhouetteStage::new(gpu, &POINTS));
-        let maps = MapTechnique::staged(gpu, maps, &LOOKUP, 1.5, &[], Some(stage))?;
+        // Depths at four corners; pixels at a silhouette read five points besides.
+        let maps = MapTechnique::staged(gpu, maps, &LOOKUP, 1.5, &[], Some(stage))?.reading(16 + 20);
         Ok(Box::new(maps.in_phases().with_pictures(gpu, &PICTURES, PICTURE_NAMES)))
     }
 }

@@ -124,6 +124,11 @@ impl Stage for SilhouetteStage {
         self.made.as_ref().map(|made| &made.bind_group)
     }
 
+    fn reads(&self, pass: &str) -> Option<u64> {
+        // The depths at the corners of a cell.
+        (pass == "silhouette map").then_some(16)
+    }
+
     fn bytes(&self) -> u64 {
         self.edges.bytes() + self.made.as_ref().map_or(0, |made| made.bytes)
     }
