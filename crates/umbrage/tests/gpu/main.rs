@@ -20,6 +20,7 @@ mod own_maps;
 mod pcf_blur;
 mod penumbra;
 mod poses;
+mod projective;
 mod rasterisers;
 mod robust;
 mod settings;

@@ -40,8 +40,8 @@ fn samplers_and_opacities_of_vertices_are_those_of_the_truth() {
         ("nearest", card(Sampling { filter: Filter::Nearest, ..Sampling::default() }, Vec::new())),
         ("fading", card(Sampling::default(), vec![0.2, 1.5, 1.5, 0.2])),
     ] {
-        for technique in ["shadow-map", "pcf"] {
-            let mut renderer = renderer(&gpu, &scene, 0, technique, "size=2048", SIZE);
+        for (technique, set) in [("shadow-map", "size=2048"), ("pcf", "size=2048"), ("projective", "")] {
+            let mut renderer = renderer(&gpu, &scene, 0, technique, set, SIZE);
             let right = score_frame(&mut renderer, &scene, 0, SIZE, 1);
             let wrong = score_frame(&mut renderer, &plain, 0, SIZE, 1);
             assert!(right.mae < 0.01, "{technique}, {name}: an error of {}", right.mae);

@@ -75,6 +75,10 @@ impl Inside for Blurred {
         self.source.inside().counts()
     }
 
+    fn reads(&self, pass: &str) -> Option<u64> {
+        self.source.inside().reads(pass)
+    }
+
     fn inspect(&mut self, view: Option<&str>) {
         self.source.inside_mut().inspect(view);
     }
