@@ -85,8 +85,8 @@ const GOLDEN: &[Row] = &[
     ("contact", 1.0, 0, "volume", "", 0.3, 100.0),
     ("overlap", 1.0, 0, "volume", "", 0.3, 100.0),
     ("duelling-frusta", 1.0, 0, "volume", "", 0.3, 100.0),
-    // Exact on planes. What is missing lies on round bodies, on small facets and, in the city and the
-    // atrium, on planes beyond the largest.
+    // Exact on planes. What is missing lies on round bodies, on small facets and, in the city and
+    // the atrium, on planes beyond the largest.
     ("primitives", 1.0, 0, "projective", "", 1.2, 99.95),
     ("contact", 1.0, 0, "projective", "", 0.6, 100.0),
     ("overlap", 1.0, 0, "projective", "", 0.9, 99.99),

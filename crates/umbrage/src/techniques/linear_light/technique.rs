@@ -46,8 +46,7 @@ impl LinearLight {
             let frame = point.maps.frame();
             point.data = LightPoint::of(&frame.views, frame.size, places[i], origin, &receivers);
             let from_eye = neighbours(i, places.len()).map(|j| places[j] - view.camera.eye);
-            point.look_up_data =
-                PointLookup::of(places[i] - view.camera.eye, from_eye, frame.layers.count());
+            point.look_up_data = PointLookup::of(places[i] - view.camera.eye, from_eye, frame.layers.count());
         }
     }
 
@@ -136,7 +135,8 @@ impl Inside for LinearLight {
     }
 
     fn stats(&self) -> Stats {
-        let mut stats = Stats { bytes: self.borders.bytes() + self.pipelines.bytes() + self.skinned.bytes(), ..Stats::default() };
+        let mut stats =
+            Stats { bytes: self.borders.bytes() + self.pipelines.bytes() + self.skinned.bytes(), ..Stats::default() };
         for point in &self.points {
             let of_maps = point.maps.stats();
             stats.triangles += of_maps.triangles + 1;

@@ -5,7 +5,12 @@ use super::depth::{DepthBounds, DepthCopy, Projection};
 use super::options::CounterKind;
 use super::pipelines::TargetKey;
 use crate::fullscreen::{bind, target_texture};
-use crate::{gpu::Gpu, passes::{Pass, Passes}, receivers::Receivers, view::View};
+use crate::{
+    gpu::Gpu,
+    passes::{Pass, Passes},
+    receivers::Receivers,
+    view::View,
+};
 
 /// Targets of one size, and the pass that copies depth where it has to be copied.
 pub(super) struct Counter {
@@ -78,12 +83,7 @@ impl Counter {
 
     /// Begins counting: from `start`, with a copy of the depth where that is needed, or from what
     /// was counted before.
-    pub fn begin<'p>(
-        &self,
-        passes: &'p mut Passes<'_>,
-        receivers: &Receivers,
-        start: Option<i32>,
-    ) -> Option<Pass<'p>> {
+    pub fn begin<'p>(&self, passes: &'p mut Passes<'_>, receivers: &Receivers, start: Option<i32>) -> Option<Pass<'p>> {
         let targets = self.targets.as_ref()?;
         if let (Some(copied), Some(copy), Some(_)) = (&targets.copied, &self.copy, start) {
             copy.record(passes, receivers, copied, self.key.depth_format, self.bounds.as_ref());

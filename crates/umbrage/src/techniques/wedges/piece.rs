@@ -11,7 +11,12 @@ use crate::area_light::{Form, Frame, ROUNDING};
 use crate::casters::Edges;
 use crate::receivers::Eye;
 use crate::silhouettes::{Extrude, Part, Silhouettes, Style};
-use crate::{error::Error, gpu::Gpu, passes::{Pass, Passes}, view::View};
+use crate::{
+    error::Error,
+    gpu::Gpu,
+    passes::{Pass, Passes},
+    view::View,
+};
 use std::ops::Range;
 
 /// Workgroups in a row, the most that every adapter allows.
