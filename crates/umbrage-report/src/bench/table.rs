@@ -128,7 +128,7 @@ mod tests {
         // The first field has a comma of its own.
         assert_eq!(lines[1].split(',').count(), lines[0].split(',').count() + 1, "{csv}");
         assert!(lines[1].starts_with("\"a,b.obj\",0,point,shadow-map,size=512,ok,,2,1,0.333333,"), "{csv}");
-        assert!(lines[1].ends_with(",1.25,0.0021,3.5,edges=7;caps=2"), "{csv}");
+        assert!(lines[1].ends_with(",1.25,0.0021,3.5,,,,edges=7;caps=2"), "{csv}");
         assert!(lines[2].contains("\"lost, \"\"gone\"\"\""), "{csv}");
     }
 
