@@ -4,6 +4,7 @@ use super::buffers::{Buffers, FindSilhouettes};
 use super::shape::{Part, Shape};
 use super::work::Work;
 use crate::casters::Edges;
+use crate::compute::compute_pipeline;
 use crate::fullscreen::{STORAGE, UNIFORM, layout};
 use crate::shader::Shader;
 use crate::{gpu::Gpu, passes::Passes};
@@ -33,20 +34,8 @@ impl Find {
         let bindings = [STORAGE, written, written, UNIFORM];
         let layout = layout(gpu, "find silhouettes", wgpu::ShaderStages::COMPUTE, &bindings);
         let module = FIND_SHADER.module(gpu);
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &[Some(&layout), Some(&Edges::find_layout(gpu))],
-            ..Default::default()
-        });
-        let pipeline = |entry| {
-            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry),
-                layout: Some(&pipeline_layout),
-                module: &module,
-                entry_point: Some(entry),
-                compilation_options: Default::default(),
-                cache: None,
-            })
-        };
+        let groups = [Some(&layout), Some(&Edges::find_layout(gpu))];
+        let pipeline = |entry| compute_pipeline(gpu, &module, entry, &groups, &[]);
         Self { sides: pipeline("find_sides"), caps: pipeline("find_caps"), group: pipeline("group_entries"), layout }
     }
 

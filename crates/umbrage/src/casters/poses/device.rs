@@ -1,5 +1,6 @@
 //! Pipelines and buffers that bend meshes.
 
+use crate::compute::compute_pipeline;
 use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{gpu::Gpu, shader::Shader, shader::shader_struct};
 
@@ -98,18 +99,7 @@ impl Device {
         let joint_layout = layout(gpu, "joints", wgpu::ShaderStages::COMPUTE, &[STORAGE; 2]);
         let planes = planes_layout(gpu);
         let pipeline = |shader: &Shader, entry, groups: &[Option<&wgpu::BindGroupLayout>]| {
-            let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                bind_group_layouts: groups,
-                ..Default::default()
-            });
-            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry),
-                layout: Some(&pipeline_layout),
-                module: &shader.module(gpu),
-                entry_point: Some(entry),
-                compilation_options: Default::default(),
-                cache: None,
-            })
+            compute_pipeline(gpu, &shader.module(gpu), entry, groups, &[])
         };
         use wgpu::BufferUsages as Usage;
         let work = gpu.buffer("poses", &vec![PosedMesh::default(); posed], Usage::STORAGE | Usage::COPY_DST);

@@ -1,6 +1,7 @@
 //! The edges that bound the shadows of a light's casters, in world space, on the GPU.
 
 use crate::casters::{Casters, Edges, Places};
+use crate::compute::compute_pipeline;
 use crate::fullscreen::{STORAGE, STORAGE_WRITE, UNIFORM, bind, layout};
 use crate::shader::{Shader, Shared, shader_struct};
 use crate::silhouettes::{Extrude, Part, Silhouettes, Style, Throw};
@@ -70,19 +71,8 @@ impl Contour {
         let silhouettes = Silhouettes::new(gpu, Extrude::Compute);
         let written = layout(gpu, "make contour", wgpu::ShaderStages::COMPUTE, &[STORAGE_WRITE]);
         let of_edges = Edges::make_edges_layout(gpu);
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("contour"),
-            bind_group_layouts: &[Some(silhouettes.layout()), Some(&of_edges), Some(&written)],
-            ..Default::default()
-        });
-        let make = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some("contour"),
-            layout: Some(&pipeline_layout),
-            module: &CONTOUR_SHADER.module(gpu),
-            entry_point: Some("make_contour"),
-            compilation_options: Default::default(),
-            cache: None,
-        });
+        let groups = [Some(silhouettes.layout()), Some(&of_edges), Some(&written)];
+        let make = compute_pipeline(gpu, &CONTOUR_SHADER.module(gpu), "make_contour", &groups, &[]);
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         Self {
             silhouettes,

@@ -1,6 +1,7 @@
 //! Nearest depths of ever larger parts of a map: what lets soft filters skip what is surely lit,
 //! and look for blockers only as far as there can be some.
 
+use crate::compute::compute_pipeline;
 use crate::depth_maps::frame::MapFrame;
 use crate::fullscreen::{STORAGE, UNIFORM, bind, layout};
 use crate::shader::{Shader, Shared, shader_struct};
@@ -90,20 +91,7 @@ impl BoundsPyramid {
         };
         let layout = layout(gpu, "map bounds", wgpu::ShaderStages::COMPUTE, &[maps, written, UNIFORM]);
         let module = BOUNDS_SHADER.module(gpu);
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &[Some(&layout)],
-            ..Default::default()
-        });
-        let pipeline = |entry| {
-            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry),
-                layout: Some(&pipeline_layout),
-                module: &module,
-                entry_point: Some(entry),
-                compilation_options: Default::default(),
-                cache: None,
-            })
-        };
+        let pipeline = |entry| compute_pipeline(gpu, &module, entry, &[Some(&layout)], &[]);
         Self { of_map: pipeline("bounds_of_map"), of_bounds: pipeline("bounds_of_bounds"), layout, made: None }
     }
 

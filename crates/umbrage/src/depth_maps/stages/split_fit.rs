@@ -4,6 +4,7 @@
 //! Sources: Lauritzen, Salvi and Lefohn, "Sample Distribution Shadow Maps", 2011 (the range; parts
 //! are cropped by their corners).
 
+use crate::compute::compute_pipeline;
 use crate::depth_maps::frame::MapFrame;
 use crate::depth_maps::layers::MOST_LAYERS;
 use crate::depth_maps::lookup::MapLayer;
@@ -68,24 +69,9 @@ impl SplitFitter {
         let layout = layout(gpu, "split fit", wgpu::ShaderStages::COMPUTE, &bindings);
         let module = SPLIT_FIT_SHADER.module(gpu);
         let receivers = Receivers::layout(gpu);
-        let layouts = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("split fit"),
-            bind_group_layouts: &[Some(&receivers), None, Some(&layout)],
-            ..Default::default()
-        });
-        let pipeline = |entry, perspective: f64| {
-            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry),
-                layout: Some(&layouts),
-                module: &module,
-                entry_point: Some(entry),
-                compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: &[("PERSPECTIVE", perspective)],
-                    ..Default::default()
-                },
-                cache: None,
-            })
-        };
+        let groups = [Some(&receivers), None, Some(&layout)];
+        let pipeline =
+            |entry, perspective: f64| compute_pipeline(gpu, &module, entry, &groups, &[("PERSPECTIVE", perspective)]);
         use wgpu::BufferUsages as Usage;
         let uniform = gpu.buffer("split fit", &[SplitFit::default()], Usage::UNIFORM | Usage::COPY_DST);
         let range = gpu.buffer("visible range", &[0u32; 2], Usage::STORAGE | Usage::COPY_DST);

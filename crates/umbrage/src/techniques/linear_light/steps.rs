@@ -1,6 +1,7 @@
 //! Finds steps of depth in maps: the borders between blockers and what is behind them.
 
 use super::uniform::{FindSteps, VIEWS};
+use crate::compute::compute_pipeline;
 use crate::fullscreen::{STORAGE_WRITE, UNIFORM, bind, layout};
 use crate::shader::HostConstant;
 use crate::{gpu::Gpu, passes::Passes};
@@ -50,20 +51,7 @@ impl Steps {
     pub fn new(gpu: &Gpu) -> Self {
         let layout = layout(gpu, "find steps", wgpu::ShaderStages::COMPUTE, &[MAPS, STORAGE_WRITE, UNIFORM]);
         let module = super::FIND.module(gpu);
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &[Some(&layout)],
-            ..Default::default()
-        });
-        let pipeline = |entry| {
-            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry),
-                layout: Some(&pipeline_layout),
-                module: &module,
-                entry_point: Some(entry),
-                compilation_options: Default::default(),
-                cache: None,
-            })
-        };
+        let pipeline = |entry| compute_pipeline(gpu, &module, entry, &[Some(&layout)], &[]);
         Self { find: pipeline("find_steps"), group: pipeline("group_steps"), layout }
     }
 

@@ -3,7 +3,8 @@
 use super::COLUMNS_SHADER;
 use super::RESULT_SHADER;
 use super::ROWS_SHADER;
-use super::tiles::{Call, TileLists, Tiles, compute_pipeline};
+use super::tiles::{Call, TileLists, Tiles};
+use crate::compute::compute_pipeline;
 use crate::fullscreen::{self, FLOATS, Fullscreen, STORAGE, UNIFORM, attachment, bind, layout};
 use crate::shader::shader_struct;
 use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View, visibility::VisibilityTarget};
@@ -161,7 +162,7 @@ impl Pipelines {
         let [all @ .., (along_rows, _)] = constants;
         let compute = |module: &wgpu::ShaderModule, entry, layout: usize, rows: f64| {
             let constants = [&all[..], &[(along_rows, rows)]].concat();
-            compute_pipeline(gpu, module, entry, &[&Receivers::layout(gpu), &layouts[layout]], &constants)
+            compute_pipeline(gpu, module, entry, &[Some(&Receivers::layout(gpu)), Some(&layouts[layout])], &constants)
         };
         let (rows, columns) = (ROWS_SHADER.module(gpu), COLUMNS_SHADER.module(gpu));
         let result = Fullscreen {

@@ -2,6 +2,7 @@
 //! dispatches and draws.
 
 use super::TILES_SHADER;
+use crate::compute::compute_pipeline;
 use crate::fullscreen::{self, FLOATS, bind, layout};
 use crate::{gpu::Gpu, passes::Passes, visibility::VisibilityTarget};
 
@@ -66,7 +67,7 @@ impl Tiles {
         let module = TILES_SHADER.module(gpu);
         let constants = [("BLOCK", f64::from(block)), ("DEPTH_AWARE", f64::from(u8::from(depth_aware)))];
         let pipelines = ["find_blocks", "find_tiles", "count_tiles"]
-            .map(|entry| compute_pipeline(gpu, &module, entry, &[&layout], &constants));
+            .map(|entry| compute_pipeline(gpu, &module, entry, &[Some(&layout)], &constants));
         let nearest = gpu.device.create_sampler(&Default::default());
         Self { block, layout, nearest, pipelines }
     }
@@ -136,25 +137,4 @@ impl TileLists {
 /// Tiles of so many blocks.
 fn tiles((across, down): (u32, u32)) -> u64 {
     u64::from(across.div_ceil(2)) * u64::from(down.div_ceil(2))
-}
-
-pub(super) fn compute_pipeline(
-    gpu: &Gpu,
-    module: &wgpu::ShaderModule,
-    entry: &str,
-    groups: &[&wgpu::BindGroupLayout],
-    constants: &[(&str, f64)],
-) -> wgpu::ComputePipeline {
-    let groups: Vec<_> = groups.iter().map(|g| Some(*g)).collect();
-    let layout = gpu
-        .device
-        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { bind_group_layouts: &groups, ..Default::default() });
-    gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some(entry),
-        layout: Some(&layout),
-        module,
-        entry_point: Some(entry),
-        compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
-        cache: None,
-    })
 }

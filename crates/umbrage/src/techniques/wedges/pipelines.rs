@@ -6,6 +6,7 @@ use super::stages::{Stages, compare};
 use super::tables::Term;
 use crate::area_light::Face;
 use crate::casters::Edges;
+use crate::compute::compute_pipeline;
 use crate::fullscreen::{FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, layout};
 use crate::receivers::Receivers;
 use crate::shader::Shader;
@@ -229,15 +230,5 @@ pub(super) fn compute(
     constants: &[(&str, f64)],
 ) -> wgpu::ComputePipeline {
     let groups: Vec<_> = groups.iter().map(|group| Some(*group)).collect();
-    let layout = gpu
-        .device
-        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { bind_group_layouts: &groups, ..Default::default() });
-    gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some(shader.name),
-        layout: Some(&layout),
-        module: &shader.module(gpu),
-        entry_point: Some("make"),
-        compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
-        cache: None,
-    })
+    compute_pipeline(gpu, &shader.module(gpu), "make", &groups, constants)
 }
