@@ -9,8 +9,8 @@ impl Renderer {
         self.lights.get(pass).map(|lit| &lit.target).ok_or_else(|| no_pass(pass))
     }
 
-    /// The visibility that pass number `pass` left, 0…1, as a future; where threads may wait,
-    /// `Renderer::visibility` does.
+    /// The visibility that pass number `pass` left, 0…1, as a future that ends only while somebody
+    /// polls the device, as browsers do; where threads may wait, `Renderer::visibility` does.
     ///
     /// # Errors
     /// [`Error::Scene`] where there is no such pass; [`Error::Unsupported`] where it answers with
