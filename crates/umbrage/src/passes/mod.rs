@@ -59,7 +59,7 @@ impl Recorder {
         Self { belt: StagingBelt::new(gpu.device.clone(), 1 << 18), timer, counter: None }
     }
 
-    /// Counts the fragments of passes as well. Counting takes time, so times are not kept.
+    /// Counts the fragments of passes in place of timing them, since counting takes time.
     ///
     /// # Errors
     /// [`Error::NotCounted`] where the device only tells whether there were any fragments, as the
@@ -110,7 +110,7 @@ pub struct Passes<'a> {
 }
 
 impl Passes<'_> {
-    /// The encoder, for copies and what else needs no timing.
+    /// The encoder, for copies and for whatever needs no timing.
     pub fn encoder(&mut self) -> &mut wgpu::CommandEncoder {
         self.encoder
     }

@@ -49,18 +49,18 @@ fn mirrored_open_and_cutting_casters_have_their_whole_shadow() {
 fn lights_in_and_behind_planes_and_scenes_without_planes_leave_all_lit() {
     let gpu = gpu();
     let above = DVec3::new(1.0, 4.0, 1.0);
-    let with_ball = |lamp: DVec3| {
+    let with_sphere = |lamp: DVec3| {
         let mut scene = floor(lamp);
         scene.instances[0].casts = false;
-        let ball = scene.add_mesh(primitive::sphere(16, 8));
-        scene.place(ball, 0, DAffine3::from_translation(DVec3::Y * 2.0));
+        let sphere = scene.add_mesh(primitive::sphere(16, 8));
+        scene.place(sphere, 0, DAffine3::from_translation(DVec3::Y * 2.0));
         scene
     };
-    let mut without_plane = with_ball(above);
+    let mut without_plane = with_sphere(above);
     without_plane.instances.remove(0);
     for (what, scene) in [
-        ("in the plane", with_ball(DVec3::new(2.0, 0.0, 1.0))),
-        ("behind the plane", with_ball(DVec3::new(1.0, -3.0, 1.0))),
+        ("in the plane", with_sphere(DVec3::new(2.0, 0.0, 1.0))),
+        ("behind the plane", with_sphere(DVec3::new(1.0, -3.0, 1.0))),
         ("no plane", without_plane),
     ] {
         for id in ["projective", "projective-fake"] {
