@@ -141,8 +141,8 @@ impl Run<'_> {
     }
 }
 
-/// Pixels that half of all texels cover at least where a map cannot do a scene: its shadows are
-/// blocks, and objects smaller than them have none.
+/// How large a texel is on the screen, pixels, at half of the pixels at least where a map cannot do
+/// a scene: its shadows are blocks, and objects smaller than them have none.
 const COARSE_PIXELS: f64 = 16.0;
 
 /// A note on each light's maps that are too coarse for the scene.
@@ -150,11 +150,12 @@ fn coarse_maps(lights: &[LightRecord]) -> Vec<String> {
     let of = |light: &LightRecord| {
         let median =
             |result: &ResultRecord| result.aliasing.map(|aliasing| (result.technique.clone(), aliasing.median));
-        let mut coarse = light.results.iter().filter_map(median).filter(|(_, pixels)| *pixels > COARSE_PIXELS);
+        let mut coarse =
+            light.results.iter().filter_map(median).filter(|(_, pixels)| pixels.is_finite() && *pixels > COARSE_PIXELS);
         let (technique, pixels) = coarse.next()?;
         let others = if coarse.next().is_some() { " and others" } else { "" };
         Some(format!(
-            "light {}: half of the texels of {technique}{others} cover {pixels:.0} pixels or more; `cascaded`, a warp \
+            "light {}: at half of the pixels a texel of {technique}{others} is {pixels:.0} pixels or more across; `cascaded`, a warp \
              (`psm`, `lispsm`, `plane-optimal`) or a larger `size` suit such a scene",
             light.light
         ))

@@ -35,7 +35,8 @@ pub struct SceneRecord {
     pub triangles: usize,
     /// Placed meshes.
     pub instances: usize,
-    /// What the loader made up or left out.
+    /// What the loader made up or left out, what single precision cannot tell apart, and which maps
+    /// are too coarse.
     pub notes: Vec<String>,
     /// One for each light of the scene.
     pub lights: Vec<LightRecord>,

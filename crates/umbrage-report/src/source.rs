@@ -11,7 +11,7 @@ pub struct Source {
     pub asked: String,
     /// The scene, with at least one triangle and one light.
     pub scene: Scene,
-    /// What the loader made up or left out.
+    /// What the loader made up or left out, and what single precision cannot tell apart.
     pub notes: Vec<String>,
 }
 

@@ -159,11 +159,11 @@ fn compare_goes_on_and_the_other_cells_are_right() {
     assert!(compare(nothing).run(&gpu, &Silent).unwrap_err().to_string().contains("not made"));
 }
 
-#[test]
-fn bench_goes_on() {
-    let bench = Bench {
-        scenes: scenes(),
-        choices: choices(),
+/// Of small pictures.
+fn bench(scenes: Vec<(Source, Vec<usize>)>, choices: Vec<Choice>, bytes: bool) -> Bench {
+    Bench {
+        scenes,
+        choices,
         size: (64, 48),
         frames: 2,
         moving: Moving::None,
@@ -171,10 +171,33 @@ fn bench_goes_on() {
         samples: 1,
         together: false,
         overlay: false,
-        bytes: false,
+        bytes,
         command: Vec::new(),
+    }
+}
+
+#[test]
+fn bytes_are_those_of_any_light() {
+    let gpu = gpu();
+    let choices = Choice::list(&registry(), &["shadow-map:size=64".into()], &[]).unwrap();
+    let scenes = vec![(Source::open("primitives").unwrap(), vec![1])];
+    let mut report = match bench(scenes, choices, true).run(&gpu, &Silent) {
+        Ok(report) => report,
+        // The standard asks for no more than whether there are any fragments.
+        Err(error) => return assert!(error.to_string().contains("counts no fragments"), "{error}"),
     };
-    let mut report = bench.run(&gpu(), &Silent).unwrap();
+    let results = report.scenes.remove(0).lights.remove(0).results;
+    let cost = results.into_iter().find(|r| r.technique == "shadow-map").unwrap().cost.unwrap();
+    let traffic = cost.traffic.unwrap();
+    let look_up = traffic.iter().find(|pass| pass.pass == "visibility").unwrap();
+    // A half float is written; depth and normal of the receiver and a texel are read.
+    assert_eq!((look_up.fragments, look_up.bytes), (64 * 48, Some(64 * 48 * (2 + 8 + 4))), "{traffic:?}");
+    assert!(traffic.iter().all(|pass| pass.bytes.is_some()), "{traffic:?}");
+}
+
+#[test]
+fn bench_goes_on() {
+    let mut report = bench(scenes(), choices(), false).run(&gpu(), &Silent).unwrap();
     let results = report.scenes.remove(0).lights.remove(0).results;
     let techniques = &results[results.len() - IDS.len()..];
     assert_cells(techniques.iter().map(|r| (r.technique.as_str(), r.status, r.reason.as_deref())));

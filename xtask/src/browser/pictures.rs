@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail, ensure};
 use base64::{Engine, engine::general_purpose::STANDARD};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
 use std::{env, fs};
 
 const PAGE: &str = include_str!("pictures.html");
@@ -82,7 +82,8 @@ fn page(folder: &Path) -> Result<PathBuf> {
 fn binder(folder: &Path) -> Result<PathBuf> {
     let version = locked_version("wasm-bindgen")?;
     let said = Command::new("wasm-bindgen").arg("--version").output().ok();
-    if said.is_some_and(|said| String::from_utf8_lossy(&said.stdout).contains(&version)) {
+    let is_it = |said: Output| String::from_utf8_lossy(&said.stdout).split_whitespace().nth(1) == Some(&*version);
+    if said.is_some_and(is_it) {
         return Ok("wasm-bindgen".into());
     }
     let root = folder.join(format!("wasm-bindgen-{version}"));

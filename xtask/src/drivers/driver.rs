@@ -38,9 +38,9 @@ impl Driver {
         Self { name: "default".into(), adapter: None, choice: None, description: None, libraries: None }
     }
 
-    /// Another adapter of those that it finds.
-    pub fn adapter(name: String) -> Self {
-        Self { name: name.clone(), choice: Some(name), ..Self::installed() }
+    /// Another adapter of those that it finds, by its number in the list.
+    pub fn adapter(number: u32) -> Self {
+        Self { name: format!("adapter-{number}"), choice: Some(number.to_string()), ..Self::installed() }
     }
 
     /// One whose adapter has to have `adapter` in its name.

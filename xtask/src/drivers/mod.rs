@@ -60,9 +60,14 @@ pub fn run(arguments: &[&str]) -> Result<()> {
     let wrong: usize = others.iter().map(|other| other.show_against(first)).sum();
     println!("\n{}", results::heading());
     results.iter().for_each(|driver| println!("{}", driver.row()));
+    let broken = first.cells.values().filter(|cell| cell.is_err()).count();
     let failed = first.failed_tests.as_ref().map_or(0, Vec::len);
-    if wrong + failed > 0 {
-        bail!("{wrong} cells or tests are worse than on {}, where {failed} tests fail", first.name);
+    if wrong + broken + failed > 0 {
+        bail!("{wrong} cells or tests are worse than on {}, where {broken} cells and {failed} tests fail", first.name);
+    }
+    if others.is_empty() {
+        println!("\nthere is one driver only, so nothing was compared");
+        return Ok(());
     }
     println!("\nall techniques are as right on all drivers");
     Ok(())
@@ -97,6 +102,7 @@ fn other_adapters() -> Result<Vec<Driver>> {
             println!("{} ({}) was not run: {reason}", name(adapter), adapter["backend"].as_str().unwrap_or("?"));
         }
     }
-    let usable = adapters.iter().filter(|adapter| adapter["unusable"].is_null());
-    Ok(usable.skip(1).map(|adapter| Driver::adapter(name(adapter))).collect())
+    let usable = (0..).zip(adapters).filter(|(_, adapter)| adapter["unusable"].is_null());
+    // By their numbers, since one that is found through two systems has one name.
+    Ok(usable.skip(1).map(|(number, _): (u32, _)| Driver::adapter(number)).collect())
 }

@@ -90,7 +90,8 @@ fn worse(expected: &Result<f64, String>, here: Option<&Result<f64, String>>, fir
             Some(format!("{value:.2} % of the interior is right, there {expected:.2} %"))
         }
         (Ok(_), Some(Err(reason))) => Some(reason.clone()),
-        (Err(reason), Some(_)) => Some(format!("failed on {first}, too: {reason}")),
+        (Err(reason), Some(Ok(_))) => Some(format!("failed on {first}: {reason}")),
+        (Err(_), Some(Err(reason))) => Some(format!("failed on {first}, too: {reason}")),
     }
 }
 

@@ -30,6 +30,7 @@ pub use stages::Noise;
 pub use stages::Stage;
 pub(crate) use stages::{BOUNDS_SHADER, SPLIT_FIT_SHADER, TESTS, TapStage, Taps};
 pub use technique::MapTechnique;
+pub(crate) use technique::RECEIVER_BYTES;
 use umbrage_core::{LightKind, LightKinds};
 
 /// The shaders that render maps, which every technique of this family has.

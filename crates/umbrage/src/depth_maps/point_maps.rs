@@ -10,8 +10,8 @@ use crate::casters::Casters;
 use crate::{gpu::Gpu, passes::Passes, technique::Stats, view::View};
 use umbrage_core::light_view::Focus;
 
-/// All of a map technique but the look-up itself, whose pipelines are those of all points. Every
-/// caster is in the maps, flat ones too.
+/// All of a map technique but the look-up itself, whose pipelines are those of all points. Where
+/// there are others, every caster is in the maps, flat ones too, since it may be a receiver.
 pub(crate) struct PointMaps {
     is_linear: bool,
     frame: MapFrame,
@@ -24,13 +24,11 @@ impl PointMaps {
     /// `reach_texels`: how far the shader looks around a receiver in the map.
     pub fn new(gpu: &Gpu, setup: &MapSetup, reach_texels: f64) -> Self {
         let MapSetup { size, faces, cache, bias, depth, .. } = *setup;
-        let mut draw = Drawer::new(gpu, faces == Faces::Back, faces == Faces::Midpoint, cache);
-        draw.every_caster = true;
         Self {
             is_linear: depth == Depth::Linear,
             frame: MapFrame { size, border_texels: reach_texels + 1.0, ..MapFrame::default() },
             fit: Fitter::new(Views::of(setup)),
-            draw,
+            draw: Drawer::new(gpu, faces == Faces::Back, faces == Faces::Midpoint, cache),
             input: LookupInput::new(gpu, bias),
         }
     }
@@ -40,6 +38,10 @@ impl PointMaps {
     pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, apart_m: f64, lookup: &mut Lookup) {
         self.fit.apart_m = if self.fit.choice.focus() == Focus::Visible { apart_m } else { 0.0 };
         self.fit.prepare(view, self.is_linear, &mut self.frame);
+        let has_others = apart_m > 0.0;
+        if std::mem::replace(&mut self.draw.every_caster, has_others) != has_others {
+            self.draw.forget();
+        }
         self.draw.prepare(gpu, view, &mut self.frame);
         lookup.prepare(gpu, view, &self.frame, &mut self.input);
     }

@@ -38,7 +38,7 @@ pub struct MapTechnique {
 }
 
 /// Bytes of depth and packed normal that every look-up reads of a receiver.
-const RECEIVER_BYTES: u64 = 8;
+pub(crate) const RECEIVER_BYTES: u64 = 8;
 
 impl MapTechnique {
     /// `reach_texels`: how far the shader looks around a receiver in the map. `constants` override

@@ -56,7 +56,7 @@ impl Recorder {
     /// Times passes where the device has `TIMESTAMP_QUERY`.
     pub fn new(gpu: &Gpu) -> Self {
         let timer = gpu.has(wgpu::Features::TIMESTAMP_QUERY).then(|| Timer::new(gpu));
-        Self { belt: StagingBelt::new(gpu.device.clone(), 1 << 18), timer, counter: None }
+        Self { belt: belt(gpu), timer, counter: None }
     }
 
     /// Counts the fragments of passes in place of timing them, since counting takes time.
@@ -66,7 +66,7 @@ impl Recorder {
     /// standard allows; and as [`Gpu::wait`].
     #[cfg(not(target_family = "wasm"))]
     pub fn counting(gpu: &Gpu) -> Result<Self, Error> {
-        let mut recorder = Self { timer: None, counter: Some(Counter::new(gpu)), ..Self::new(gpu) };
+        let mut recorder = Self { belt: belt(gpu), timer: None, counter: Some(Counter::new(gpu)) };
         let known = fragments::of_a_known_pass(gpu, &mut recorder)?;
         if known == fragments::KNOWN { Ok(recorder) } else { Err(Error::NotCounted) }
     }
@@ -98,6 +98,11 @@ impl Recorder {
         counter.collect();
         counter.latest.clone()
     }
+}
+
+/// Memory for uploads, which grows where it is too small.
+fn belt(gpu: &Gpu) -> StagingBelt {
+    StagingBelt::new(gpu.device.clone(), 1 << 18)
 }
 
 /// One frame's recording.

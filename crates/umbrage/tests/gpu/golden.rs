@@ -117,29 +117,33 @@ const FINE: f64 = 1.0 / 256.0;
 /// The surface and what hides the light from it are both moved.
 const MOVED: f64 = 2.0;
 
-/// Pixels of the interior that a coarser rasteriser may get wrong, per cent: single ones, where it
-/// shows another surface than a ray meets.
-const COARSE_INTERIOR: f64 = 0.02;
+/// Pixels of the interior that a coarser rasteriser may get wrong, since it shows another surface
+/// there than a ray meets; four were seen.
+const COARSE_PIXELS: f64 = 5.0;
 
 #[test]
 fn errors_are_as_stated() {
     let gpu = gpu();
     let snapping = f64::from(gpu.snapping());
-    let coarse = snapping > FINE;
+    let snapping = if snapping > FINE { snapping } else { 0.0 };
     let mut wrong = Vec::new();
     for &(id, detail, light, technique, set, mae, interior) in GOLDEN {
-        let s = against_truth(&gpu, &scene(id, detail), light, technique, set, (320, 240), 1);
-        let mae =
-            mae + if coarse { MOVED * snapping * edge_share(&scene(id, detail), light, (320, 240)) * 1e4 } else { 0.0 };
-        let interior = interior - if coarse { COARSE_INTERIOR } else { 0.0 };
+        let scene = scene(id, detail);
+        let s = against_truth(&gpu, &scene, light, technique, set, (320, 240), 1);
+        let pixels = s.scored_pixels as f64;
+        let (moved, shown) = match snapping {
+            0.0 => (0.0, 0.0),
+            _ => (MOVED * snapping * edge_share(&scene, light, (320, 240)) * 1e4, COARSE_PIXELS * 100.0 / pixels),
+        };
         let (got, inside) = (s.mae * 1e4, s.interior_pct.unwrap_or(0.0));
         let row = format!(
-            "{id} {technique} {set}: mae {got:.2}e-4 (stated {mae:.2}), interior {inside:.3} % (at least {interior})"
+            "{id} {technique} {set}: mae {got:.2}e-4 (stated {mae}, and {moved:.2} by snapping), \
+             interior {inside:.3} % (at least {interior}, less {shown:.3})"
         );
         println!("{row}");
-        if got > mae || inside < interior || s.not_finite > 0 {
+        if got > mae + moved || inside < interior - shown || s.not_finite > 0 {
             wrong.push(format!("worse: {row}"));
-        } else if !coarse && got + PIXELS * 1e4 / s.scored_pixels as f64 <= 0.5 * mae {
+        } else if got + PIXELS * 1e4 / pixels <= 0.5 * mae {
             wrong.push(format!("much better, state it: {row}"));
         }
     }

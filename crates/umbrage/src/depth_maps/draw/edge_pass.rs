@@ -45,7 +45,7 @@ pub struct EdgePass {
     kind: Kind,
 }
 
-/// One way to draw all edges.
+/// Shaders and targets by which all edges are drawn.
 #[derive(Clone, Debug)]
 pub struct EdgeDraw {
     /// The vertex shader.

@@ -107,7 +107,7 @@ impl Lookup {
     /// Makes ready for the maps of this frame.
     pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, maps: &MapFrame, input: &mut LookupInput) {
         self.choose(gpu, view, maps, input);
-        if let Some(mut pictures) = self.pictures.take() {
+        if let Some(mut pictures) = self.pictures.take_if(|pictures| pictures.is_shown()) {
             let variant = input.current.map(|current| self.pipelines[current].0);
             let constants = variant.map_or_else(Vec::new, |variant| self.constants_of(variant));
             let receivers = Receivers::layout(gpu);

@@ -29,6 +29,11 @@ impl Pictures {
         self.target = self.target.take().filter(|_| self.shown.is_some());
     }
 
+    /// Whether somebody looks at one.
+    pub fn is_shown(&self) -> bool {
+        self.shown.is_some()
+    }
+
     /// `variant`: of the look-up, where there is one. `groups` and `constants` are its own.
     pub fn prepare(
         &mut self,

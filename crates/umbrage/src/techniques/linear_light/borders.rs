@@ -12,7 +12,7 @@ use crate::{Error, Gpu, passes::Passes, view::View};
 use umbrage_core::glam::DVec3;
 use umbrage_core::{LightShape, light_view::LightView};
 
-/// Pipelines that all points share.
+/// Pipelines that all points share where borders are steps in maps. An [`EdgePass`] has its own.
 pub(super) struct Borders {
     /// Of what skins are drawn into.
     pub into: wgpu::BindGroupLayout,
@@ -76,9 +76,15 @@ impl Borders {
         }
     }
 
+    /// Finds the edges of a channel, before it or its picture is drawn.
+    pub fn find_edges(passes: &mut Passes<'_>, view: &View<'_>, job: &Job<'_>) {
+        if let Some(edges) = job.edges.filter(|_| job.other.is_some()) {
+            edges.find(passes, view.casters, job.target.maps.frame());
+        }
+    }
+
     /// Draws a channel; returns the number of draws.
-    pub fn record(&self, passes: &mut Passes<'_>, view: &View<'_>, job: &Job<'_>) -> u32 {
-        self.find_edges(passes, view, job);
+    pub fn record(&self, passes: &mut Passes<'_>, job: &Job<'_>) -> u32 {
         let mut draws = 0;
         for (i, layer) in job.target.layers().enumerate() {
             let Some(into) = job.channel.upload(passes, layer, job.to_other) else { continue };
@@ -88,19 +94,12 @@ impl Borders {
     }
 
     /// Draws the picture of a layer's skins.
-    pub fn record_picture(&self, passes: &mut Passes<'_>, view: &View<'_>, job: &Job<'_>, skinned: &Skinned) {
+    pub fn record_picture(&self, passes: &mut Passes<'_>, job: &Job<'_>, skinned: &Skinned) {
         let Some(i) = job.target.layers().position(|layer| Some(layer) == skinned.layer()) else { return };
         let Some(into) = skinned.layer().and_then(|layer| job.channel.upload(passes, layer, job.to_other)) else {
             return;
         };
-        self.find_edges(passes, view, job);
         self.draw(passes, job, (i, &into.bind_group), skinned.attachment(), true);
-    }
-
-    fn find_edges(&self, passes: &mut Passes<'_>, view: &View<'_>, job: &Job<'_>) {
-        if let Some(edges) = job.edges.filter(|_| job.other.is_some()) {
-            edges.find(passes, view.casters, job.target.maps.frame());
-        }
     }
 
     fn draw(

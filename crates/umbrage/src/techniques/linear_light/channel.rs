@@ -42,7 +42,7 @@ pub(super) struct ChannelLayer {
 }
 
 impl Channel {
-    /// Names a layer and the way to the neighbour; `None` where there is no such layer.
+    /// Names a layer and the direction of the neighbour; `None` where there is no such layer.
     pub fn upload(&self, passes: &mut Passes<'_>, layer: u32, to_other: DVec3) -> Option<&ChannelLayer> {
         let found = self.layers.get(layer as usize)?;
         let into = SkinLayer { to_other: to_other.as_vec3().to_array(), layer };
@@ -68,8 +68,11 @@ pub(super) fn channels(
     resources: [wgpu::BindingResource<'_>; 2],
     neighbours: u32,
 ) -> (wgpu::Texture, Vec<Channel>) {
-    let (size, count) = ((maps.width(), maps.height()), maps.depth_or_array_layers());
-    let texture = target_texture(gpu, "shares of a light", size, count * neighbours.max(1), FORMAT);
+    let count = maps.depth_or_array_layers();
+    // A light that is one point has no channel, and what is bound in its place is not read.
+    let (size, layers) =
+        if neighbours == 0 { ((1, 1), 1) } else { ((maps.width(), maps.height()), count * neighbours) };
+    let texture = target_texture(gpu, "shares of a light", size, layers, FORMAT);
     let layer = |base_array_layer| {
         let view = texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2),

@@ -3,7 +3,7 @@
 use umbrage_core::LightShape;
 use umbrage_core::glam::DVec3;
 
-/// The line that stands for a light; `None` for lights that are none, and where it has no length.
+/// The line that stands for a light; `None` for lights of other kinds, and where it has no length.
 /// A rectangle's is its longer axis.
 fn axis(shape: &LightShape) -> Option<[DVec3; 2]> {
     let [from, to] = match *shape {

@@ -64,7 +64,7 @@ impl Point {
             ..Default::default()
         });
         let shared = [wgpu::BindingResource::TextureView(&view), self.uniform.as_entire_binding()];
-        let steps = borders.steps.as_ref().map(|(steps, skins)| {
+        let steps = borders.steps.as_ref().filter(|_| neighbours > 0).map(|(steps, skins)| {
             let list = steps.list(gpu, &view, frame.size);
             let source = skins.bind(gpu, &list, shared.clone());
             (list, source)

@@ -14,14 +14,14 @@ const BLOCK: u32 = 4;
 pub(super) const GROUP: u32 = 64;
 pub(super) const INDICES: u32 = 6;
 
-/// Bytes before the entries of a list: the arguments of a draw, how many were found, two words of
-/// nothing.
+/// Bytes before the entries of a list: the arguments of a draw, how many were found, and two unused
+/// words.
 pub(super) const HEAD: u64 = 32;
 
 /// Bytes of an entry.
 const ENTRY: u64 = 8;
 
-/// What `find_steps.wgsl` call them.
+/// What `find_steps.wgsl` calls them.
 pub(super) const CONSTANTS: &[HostConstant] =
     &[("WORKGROUP", WORKGROUP as f64), ("BLOCK", BLOCK as f64), ("GROUP", GROUP as f64), ("INDICES", INDICES as f64)];
 

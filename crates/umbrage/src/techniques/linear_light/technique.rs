@@ -7,6 +7,7 @@ use super::options;
 use super::pictures::{Skinned, pictures};
 use super::point::Point;
 use super::uniform::{LightPoint, PointLookup};
+use crate::depth_maps::RECEIVER_BYTES;
 use crate::technique::{DebugView, Inside, Stats, Technique};
 use crate::{Error, Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
 use umbrage_core::light_view::LightView;
@@ -65,11 +66,15 @@ impl LinearLight {
                 let [here, there] = [i, j].map(|k| self.shapes[k].center().truncate());
                 let (edges, other) = (target.edges.get(k), self.points[j].made());
                 let job = Job { target, channel, edges, other, to_other: there - here };
-                if new[i] || new[j] {
-                    draws += self.borders.record(passes, view, &job);
+                let (is_new, is_shown) = (new[i] || new[j], (i, k) == (0, 0) && self.skinned.layer().is_some());
+                if is_new || is_shown {
+                    Borders::find_edges(passes, view, &job);
                 }
-                if (i, k) == (0, 0) {
-                    self.borders.record_picture(passes, view, &job, &self.skinned);
+                if is_new {
+                    draws += self.borders.record(passes, &job);
+                }
+                if is_shown {
+                    self.borders.record_picture(passes, &job, &self.skinned);
                 }
             }
         }
@@ -146,6 +151,19 @@ impl Inside for LinearLight {
         }
         stats.draws = self.draws;
         stats
+    }
+
+    fn reads(&self, pass: &str) -> Option<u64> {
+        match pass {
+            "map" => Some(0),
+            // The texel's depth, and the share that is blended over.
+            "skins" => Some(4 + 2),
+            // The receiver, its texel's depth, and a share for each neighbour.
+            "visibility" => Some(RECEIVER_BYTES + 4 + 2 * 2),
+            // What both ends see, and what is blended over.
+            "pieces" => Some(2 * 4 + 2),
+            _ => None,
+        }
     }
 
     fn light_views(&self) -> &[LightView] {
