@@ -242,7 +242,8 @@ fn comments_fit_on_a_page() {
         for (number, line) in text.lines().enumerate() {
             let starts_in_code = inside.is_none();
             let is_end = |part: &&str| line.strip_suffix(part).is_some_and(|head| head.ends_with("//"));
-            let is_comment = starts_in_code && prose(line, &mut inside).last().is_some_and(is_end);
+            let parts = prose(line, &mut inside);
+            let is_comment = starts_in_code && parts.last().is_some_and(is_end);
             // The row of a table is one line.
             let is_row = line.trim_start_matches(['/', '!', ' ']).starts_with('|');
             if is_comment && !is_row && line.chars().count() > COLUMNS {

@@ -91,7 +91,8 @@ impl Render {
         Ok(())
     }
 
-    /// Names the picture that was probably meant, before a light is asked for that it does not need.
+    /// Names the picture that was probably meant, before a light is asked for that it does not
+    /// need.
     fn check_aov(&self, aov: &Aov) -> Result<()> {
         let Aov::Inside(name) = aov else { return Ok(()) };
         match nearest(name, PICTURES.into_iter()) {

@@ -103,6 +103,16 @@ pub fn target_texture(
     })
 }
 
+/// One layer of an array.
+pub fn layer_view(texture: &wgpu::Texture, layer: u32) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2),
+        base_array_layer: layer,
+        array_layer_count: Some(1),
+        ..Default::default()
+    })
+}
+
 /// A layout whose bindings are numbered from 0 in order, for the given stages.
 pub fn layout(
     gpu: &Gpu,

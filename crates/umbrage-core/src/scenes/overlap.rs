@@ -37,8 +37,8 @@ fn build(detail: f32) -> Scene {
     let steel = scene.add_material(glossy(0.4, 0.42, 0.46));
     scene.place(plane, floor, sized(DVec3::ZERO, DVec3::new(12.0, 1.0, 12.0), 0.0));
 
-    // Two plates on a rod. From the light their edges nearly coincide, so that most of a penumbra is
-    // that of both.
+    // Two plates on a rod. From the light their edges nearly coincide, so that most of a penumbra
+    // is that of both.
     let foot = DVec3::new(-1.38, 0.0, -0.62);
     scene.place(rod, steel, standing(foot, DVec3::new(0.025, 1.95, 0.025), 0.0));
     scene.place(cube, orange, sized(DVec3::new(-1.2, 0.95, -0.3), DVec3::new(1.5, 0.05, 1.5), 0.0));

@@ -50,7 +50,7 @@ const SQUARE: [DVec3; 4] =
     [DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, -1.0, 0.0), DVec3::new(-1.0, -1.0, 0.0), DVec3::new(-1.0, 1.0, 0.0)];
 
 /// How wide a line is taken to be, as a share of its length.
-const LINE_WIDTH: f64 = 1e-3;
+pub(crate) const LINE_WIDTH: f64 = 1e-3;
 
 /// How near to the light a triangle touches it, in light space.
 const SLACK: f64 = 1e-4;

@@ -6,7 +6,7 @@ mod select;
 mod uniform;
 
 use crate::shader::Shared;
-pub(crate) use form::{Face, Form};
+pub(crate) use form::{Face, Form, LINE_WIDTH};
 pub(crate) use select::{casters_in_view, is_on_a_caster, may_touch};
 pub(crate) use uniform::{Anchor, AreaLight, Frame, scaled};
 

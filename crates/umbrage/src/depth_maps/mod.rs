@@ -38,7 +38,7 @@ pub const SHADERS: [Shader; 3] = draw::SHADERS;
 
 /// What the host has to agree on with the modules of this folder.
 pub(crate) const SHARED: &[Shared] =
-    &[draw::SHARED[0], draw::SHARED[1], lookup::SHARED, stages::SHARED[0], stages::SHARED[1]];
+    &[draw::SHARED[0], draw::SHARED[1], draw::SHARED[2], lookup::SHARED, stages::SHARED[0], stages::SHARED[1]];
 
 /// The lights of this family: every kind, soft ones hard from their centre.
 pub const LIGHTS: LightKinds = LightKinds::of(&LightKind::ALL);

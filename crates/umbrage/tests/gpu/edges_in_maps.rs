@@ -48,8 +48,8 @@ const DRAW: Shader = Shader::new(
     }",
 );
 
-/// 0.5 where an edge and the map agree, 0.25 where there is shadow outside, 0.125 where there is light
-/// inside; else 1, or the 0 of its own shadow.
+/// 0.5 where an edge and the map agree, 0.25 where there is shadow outside, 0.125 where there is
+/// light inside; else 1, or the 0 of its own shadow.
 const LOOKUP: Shader = Shader::new(
     "sides against the map",
     "// needs: map_visibility
@@ -236,8 +236,9 @@ fn outside_of_edges_is_light_and_inside_shadow() {
             let [right, outside, inside] = counts(&gpu, &floating(kind, light), fitting, depth);
             let what = format!("{kind}, {light:?}, {fitting:?}: {right}, {outside}, {inside}");
             assert!(right > 60 && inside * 200 <= right, "{what}");
-            // The border of an open box may have the box itself behind it.
-            assert!(outside * 200 <= right || kind == "box without a lid", "{what}");
+            // A part of the border of an open box has the box itself behind it: a seventh was seen.
+            let of = if kind == "box without a lid" { 6 } else { 200 };
+            assert!(outside * of <= right, "{what}");
         }
     }
     let masked = counts(&gpu, &floating("masked card", &sun), one(Omni::Cube), Depth::Projective);

@@ -3,6 +3,16 @@
 use crate::common::{against_truth, gpu, scene};
 
 #[test]
+fn offsets_are_in_the_texels_of_their_split() {
+    let gpu = gpu();
+    let scene = scene("city", 0.25);
+    let set = "stabilize=on,splits=4,offset=classic,constant=0.02,slope=2";
+    let s = against_truth(&gpu, &scene, 0, "cascaded", set, (160, 120), 1);
+    println!("mae {:.5}, interior {:?}", s.mae, s.interior_pct);
+    assert!(s.interior_pct.unwrap() > 99.9, "{:?}", s.interior_pct);
+}
+
+#[test]
 fn offsets_tuned_by_hand_show_the_dilemma_and_are_no_better() {
     let gpu = gpu();
     let scene = scene("primitives", 1.0);

@@ -10,7 +10,7 @@ use umbrage::{Gpu, find};
 use umbrage_reference::closed_form::{past_half_plane, sphere_above_plane};
 use umbrage_renderer::{LightPass, Renderer};
 
-/// Allowed error of the width, as a share of it.
+/// Allowed error of the width, as a share of it: what the technique promises.
 const TOLERANCE: f64 = 0.1;
 
 /// Sizes of lights over their height, heights of the edge over that of the light, heights of the
@@ -132,6 +132,47 @@ fn outer_penumbrae_of_rectangles_are_right() {
             LightShape::Rect { position, direction, up, size: DVec2::new(1.0, 0.4) * size, texture: None }
         }));
     }
+}
+
+#[test]
+fn outer_penumbrae_of_ellipsoids_are_right() {
+    are_right(&cases("ellipsoid", |size, position, turn| LightShape::Ellipsoid {
+        position,
+        radii: DVec3::new(0.5, 0.3, 0.2) * size,
+        rotation: turn * DMat3::from_rotation_y(0.5),
+    }));
+}
+
+#[test]
+fn outer_penumbrae_of_lines_are_right() {
+    are_right(&cases("line", |size, position, turn| {
+        let half = turn * DMat3::from_rotation_y(0.4) * DVec3::X * (0.5 * size);
+        LightShape::Line { from: position - half, to: position + half }
+    }));
+}
+
+#[test]
+fn every_picture_shows_something_and_changes_no_shadow() {
+    let gpu = gpu();
+    let scene = crate::common::scene("contact", 1.0);
+    let frame = |view: Option<&str>| {
+        let mut technique = find("smoothies").unwrap().settings(&pairs("size=256")).unwrap().make(&gpu).unwrap();
+        technique.inside_mut().inspect(view);
+        let mut renderer = Renderer::new(&gpu, &scene, 160, 120, vec![LightPass { light: 1, technique }]).unwrap();
+        let shadow = visibility(&mut renderer, &scene);
+        let views = renderer.technique(0).unwrap().inside().debug_views();
+        let shown = views.iter().find(|v| Some(v.name) == view).map(|v| renderer.read_debug_view(v).unwrap());
+        (shown, shadow.data)
+    };
+    let (_, shadow) = frame(None);
+    for (name, nothing) in [("smoothie-depth-3", 0.0), ("alpha-before-3", 1.0), ("alpha-3", 1.0)] {
+        let (shown, seen) = frame(Some(name));
+        assert!(seen == shadow, "{name} changes the shadow");
+        let data = shown.unwrap_or_else(|| panic!("{name} is not shown")).data;
+        let drawn = data.iter().filter(|v| **v != nothing).count();
+        assert!(drawn > 500, "{name}: {drawn} texels");
+    }
+    gpu.check().unwrap();
 }
 
 #[test]

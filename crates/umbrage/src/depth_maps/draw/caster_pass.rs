@@ -6,8 +6,8 @@ use crate::casters::{Casters, DrawList, InstanceNumbers, Surface, texture_layout
 use crate::depth_maps::frame::MapFrame;
 use crate::{gpu::Gpu, passes::Passes, shader::Shader, view::View};
 
-/// Draws what each of a light's views sees of the casters: silhouette maps, smoothies, colours of
-/// stained glass.
+/// Draws what each of a light's views sees of the casters, such as colours of stained glass and
+/// thicknesses.
 ///
 /// The shader needs the module `map_depth`, which has its vertex shaders, `opaque` and `masked`; it
 /// may read the view as `map_view`. Views that are no matrices

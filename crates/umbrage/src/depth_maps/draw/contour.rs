@@ -17,6 +17,10 @@ pub(crate) const CONTOUR_SHADER: Shader = Shader::new("contour", include_str!("m
 pub(in crate::depth_maps) const SHARED: Shared =
     Shared { module: "contour_record", layouts: &[ContourRecord::LAYOUT], constants: &[] };
 
+/// The same with `map_edges.wgsl`.
+pub(in crate::depth_maps) const SHARED_EDGES: Shared =
+    Shared { module: "map_edges", layouts: &[], constants: &[("EDGES", CHUNK as f64)] };
+
 shader_struct! {
     /// An edge, see `contour_record.wgsl`.
     pub(crate) struct ContourRecord {

@@ -118,7 +118,9 @@ impl EdgePass {
     /// all that is the same.
     ///
     /// # Errors
-    /// [`Error::Size`] where the edges do not fit the adapter's limits.
+    /// [`Error::Size`] where the list of edges does not fit the adapter's limits. Of more
+    /// silhouette edges than one binding holds (four million with WebGPU's limits) some are left
+    /// out.
     pub fn prepare(
         &mut self,
         gpu: &Gpu,
@@ -151,7 +153,8 @@ impl EdgePass {
     }
 
     /// Draws all edges into the layer of view number `i` of the frame, by way number `draw` of
-    /// those that [`EdgePass::new`] was given, in a pass of its own, which clears in any case.
+    /// those that [`EdgePass::new`] was given, in a pass of its own, which begins in any case, so
+    /// that its load operation takes effect.
     /// Returns the number of draws.
     pub fn record(
         &self,

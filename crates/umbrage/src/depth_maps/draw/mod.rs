@@ -20,4 +20,4 @@ pub(crate) use contour::CONTOUR_SHADER;
 pub(super) use drawer::Drawer;
 pub use edge_pass::{EdgeDraw, EdgePass, EdgeTarget};
 pub(super) use pipelines::SHADERS;
-pub(super) const SHARED: [Shared; 2] = [view::SHARED, contour::SHARED];
+pub(super) const SHARED: [Shared; 3] = [view::SHARED, contour::SHARED, contour::SHARED_EDGES];

@@ -1,6 +1,7 @@
 //! The textures of a light's maps.
 
 use super::layouts::{Layouts, view_uniform};
+use crate::fullscreen::layer_view;
 use crate::gpu::Gpu;
 
 /// The format of maps: floats, since reversed depth needs their precision far away.
@@ -115,14 +116,5 @@ fn map_texture(gpu: &Gpu, label: &str, size: u32, layers: u32) -> wgpu::Texture 
             | wgpu::TextureUsages::COPY_SRC
             | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
-    })
-}
-
-fn layer_view(texture: &wgpu::Texture, layer: u32) -> wgpu::TextureView {
-    texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::D2),
-        base_array_layer: layer,
-        array_layer_count: Some(1),
-        ..Default::default()
     })
 }

@@ -77,8 +77,12 @@ impl Fitter {
 /// much farther as the receiver is behind the nearest caster, and no farther than the scene is
 /// wide.
 fn margin(view: &View<'_>, casters: &[Bounds], apart_m: f64) -> f64 {
-    let (light, seen) = (view.light.shape.center(), view.seen());
-    if apart_m == 0.0 || light.w == 0.0 || seen.is_empty() {
+    let light = view.light.shape.center();
+    if apart_m == 0.0 || light.w == 0.0 {
+        return 0.0;
+    }
+    let seen = view.seen();
+    if seen.is_empty() {
         return 0.0;
     }
     let light = light.truncate();

@@ -227,6 +227,9 @@ fn map_point(pixel: Pixel, first: MapPoint, layer: u32) -> MapPoint {
     } else {
         point = point_by_matrix(pixel, layer);
     }
+    if CLASSIC {
+        offset_by_hand(&point);
+    }
     point.is_covered &= all(point.texel >= vec2f(0.0)) && all(point.texel < vec2f(map.size));
     return point;
 }
@@ -270,9 +273,6 @@ fn point_by_matrix(pixel: Pixel, layer: u32) -> MapPoint {
     point.is_own_shadow = surface.casts && is_in_front && point.across < 0.0;
     let metres = position_rounding(map.eye, pixel.depth, eye_inverse_w) + map.caster_rounding;
     point.rounding = depth_rounding(point, metres, off_surface(map.eye, surface.normal, eye_inverse_w));
-    if CLASSIC {
-        offset_by_hand(&point);
-    }
     return point;
 }
 

@@ -21,7 +21,8 @@ pub trait Stage: wgpu::WasmNotSend {
     fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, frame: &MapFrame) -> Result<(), Error>;
 
     /// Passes after the maps are drawn, which are in [`MapFrame::texture`]. To draw casters into a
-    /// map of its own a stage has a [`crate::depth_maps::CasterPass`]. Returns the number of draws.
+    /// map of its own a stage has a [`crate::depth_maps::CasterPass`], and to draw their edges an
+    /// [`crate::depth_maps::EdgePass`]. Returns the number of draws.
     fn record(&mut self, _passes: &mut Passes<'_>, _frame: &MapFrame, _casters: &Casters) -> u32 {
         0
     }

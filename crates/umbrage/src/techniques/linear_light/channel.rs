@@ -2,7 +2,7 @@
 
 use super::steps::MAPS;
 use super::uniform::SkinLayer;
-use crate::fullscreen::{UNIFORM, attachment, bind, layout, target_texture};
+use crate::fullscreen::{UNIFORM, attachment, bind, layer_view, layout, target_texture};
 use crate::gpu::Gpu;
 use crate::passes::Passes;
 use umbrage_core::glam::DVec3;
@@ -73,13 +73,8 @@ pub(super) fn channels(
     let (size, layers) =
         if neighbours == 0 { ((1, 1), 1) } else { ((maps.width(), maps.height()), count * neighbours) };
     let texture = target_texture(gpu, "shares of a light", size, layers, FORMAT);
-    let layer = |base_array_layer| {
-        let view = texture.create_view(&wgpu::TextureViewDescriptor {
-            dimension: Some(wgpu::TextureViewDimension::D2),
-            base_array_layer,
-            array_layer_count: Some(1),
-            ..Default::default()
-        });
+    let layer = |layer| {
+        let view = layer_view(&texture, layer);
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniform = gpu.buffer("skin layer", &[SkinLayer::default()], usage);
         let [maps, point] = resources.clone();

@@ -2,7 +2,7 @@
 
 use super::planes::Textures;
 use crate::casters::{Casters, Surface, texture_layout, vertex_layouts};
-use crate::fullscreen::{Fullscreen, UNIFORM, bind, layout, target_texture};
+use crate::fullscreen::{Fullscreen, UNIFORM, bind, layer_view, layout, target_texture};
 use crate::planar::{Finder, Shadows};
 use crate::receivers::Receivers;
 use crate::shader::Shader;
@@ -87,14 +87,7 @@ impl Draws {
 
     fn make(&self, gpu: &Gpu, size: u32, planes: u32) -> Made {
         let texture = target_texture(gpu, "shadows on planes", (size, size), planes, FORMAT);
-        let layer = |base_array_layer| {
-            texture.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(wgpu::TextureViewDimension::D2),
-                base_array_layer,
-                array_layer_count: Some(1),
-                ..Default::default()
-            })
-        };
+        let layers = (0..planes).map(|layer| layer_view(&texture, layer)).collect();
         let all = texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()
@@ -105,7 +98,7 @@ impl Draws {
             wgpu::BindingResource::Sampler(&self.sampler),
         ];
         let read = bind(gpu, "textures of planes", &self.layout, &resources);
-        Made { layers: (0..planes).map(layer).collect(), texture, read }
+        Made { layers, texture, read }
     }
 
     /// What draws casters.

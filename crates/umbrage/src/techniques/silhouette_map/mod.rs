@@ -6,7 +6,7 @@
 
 mod stage;
 
-use crate::depth_maps::{CONTOUR_SHADER, Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage};
+use crate::depth_maps::{CONTOUR_SHADER, Cover, EdgePass, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage};
 use crate::settings::Configure;
 use crate::shader::{Module, Shader};
 use crate::silhouettes::FIND_SHADER;
@@ -59,7 +59,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
     features: wgpu::Features::empty(),
-    limits: storage_buffers::<7>,
+    limits: storage_buffers::<{ EdgePass::STORAGE_BUFFERS }>,
     hard: true,
     settings: SettingsOf::new::<SilhouetteMap>(),
     views: &VIEWS,

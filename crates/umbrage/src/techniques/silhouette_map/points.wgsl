@@ -10,25 +10,27 @@ struct CellEdge {
     @location(0) @interpolate(flat) start: vec2f,
     @location(1) @interpolate(flat) end: vec2f,
     @location(2) @interpolate(flat) depth: vec2f,
+    // A unit vector across the edge, away from the shadow.
+    @location(3) @interpolate(flat) outward: vec2f,
 }
 
-// A corner of a triangle may be snapped to a sixteenth of a texel, so that the map of depths has an
-// edge so far aside. Cells that the true edge misses by no more have a point of it, too, on their
-// side.
+// Corners of triangles may be rounded to a sixteenth of a texel, by 1/32 in each coordinate, so
+// that the map of depths has an edge up to 0.044 aside. Cells that the true edge misses by no more
+// have a point of it, too, on their side.
 const SNAPPED: f32 = 0.05;
 
 @vertex
 fn corner(@builtin(vertex_index) vertex: u32, @builtin(instance_index) group: u32) -> CellEdge {
     let seen = layer_edge(contour_edge(vertex, group), 4.0);
     if !seen.is_seen {
-        return CellEdge(OFF_LAYER, vec2f(0.0), vec2f(0.0), vec2f(0.0));
+        return CellEdge(OFF_LAYER, vec2f(0.0), vec2f(0.0), vec2f(0.0), vec2f(0.0));
     }
     // As far as the middles of cells can be that have a point of it, both along and across, and by
     // how much its own corners may be snapped.
     let around = (0.5 + SNAPPED) * (abs(seen.along.x) + abs(seen.along.y)) + SNAPPED;
     // The middle of a depth texel is a corner of four cells.
     let at = quad_corner(seen, vertex, around, around) - 0.5;
-    return CellEdge(clip_of_texel(at, 0.5), seen.start - 0.5, seen.end - 0.5, seen.depth);
+    return CellEdge(clip_of_texel(at, 0.5), seen.start - 0.5, seen.end - 0.5, seen.depth, seen.outward);
 }
 
 // A place on the edge: 0 its start, 1 its end; and whether that is in the cell.
@@ -112,7 +114,7 @@ fn point_of_edge(in: CellEdge) -> @builtin(frag_depth) f32 {
     if is_hidden(around, mix(in.depth.x, in.depth.y, place.at)) {
         discard;
     }
-    let outward = normalize(vec2f(a.y - b.y, b.x - a.x));
+    let outward = in.outward;
     let from_corners = vec4f(0.0, outward.x, outward.y, outward.x + outward.y) - dot(outward, a);
     let is_outside = from_corners > vec4f(0.0);
     let outside = nearest_of(select(vec4f(0.0), around, is_outside));

@@ -2,7 +2,7 @@
 
 use crate::casters::Casters;
 use crate::depth_maps::{EdgeDraw, EdgePass, EdgeTarget, MapFrame, Stage};
-use crate::fullscreen::{bind, layout, target_texture, texture};
+use crate::fullscreen::{bind, layer_view, layout, target_texture, texture};
 use crate::{Error, Gpu, Passes, Shader, View};
 
 /// Draws points of silhouettes, and keeps them for as long as the maps of depths stay.
@@ -132,13 +132,4 @@ impl Stage for SilhouetteStage {
     fn bytes(&self) -> u64 {
         self.edges.bytes() + self.made.as_ref().map_or(0, |made| made.bytes)
     }
-}
-
-fn layer_view(texture: &wgpu::Texture, layer: u32) -> wgpu::TextureView {
-    texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::D2),
-        base_array_layer: layer,
-        array_layer_count: Some(1),
-        ..Default::default()
-    })
 }

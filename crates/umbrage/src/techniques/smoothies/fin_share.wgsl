@@ -84,15 +84,14 @@ fn nearest_on(a: vec3f, b: vec3f) -> vec2f {
 fn nearest_in_squares(a: vec2f, b: vec2f) -> vec2f {
     let way = b - a;
     var nearest = vec2f(1e30, 0.0);
-    nearest = nearer_in_squares(nearest, a, way, -a.x / way.x);
-    nearest = nearer_in_squares(nearest, a, way, -a.y / way.y);
-    nearest = nearer_in_squares(nearest, a, way, (a.y - a.x) / (way.x - way.y));
-    return nearer_in_squares(nearest, a, way, -(a.x + a.y) / (way.x + way.y));
+    nearest = nearer_in_squares(nearest, a, way, -a.x, way.x);
+    nearest = nearer_in_squares(nearest, a, way, -a.y, way.y);
+    nearest = nearer_in_squares(nearest, a, way, a.y - a.x, way.x - way.y);
+    return nearer_in_squares(nearest, a, way, -(a.x + a.y), way.x + way.y);
 }
 
-fn nearer_in_squares(nearest: vec2f, a: vec2f, way: vec2f, place: f32) -> vec2f {
-    // What is divided by 0 may be no number.
-    let at = select(0.0, saturate(place), place == place);
+fn nearer_in_squares(nearest: vec2f, a: vec2f, way: vec2f, over: f32, under: f32) -> vec2f {
+    let at = select(saturate(over / under), 0.0, under == 0.0);
     let found = abs(a + at * way);
     let most = max(found.x, found.y);
     return select(nearest, vec2f(most, at), most < nearest.x);
@@ -175,6 +174,6 @@ fn smoothie_at(start: vec3f, end: vec3f, at: vec3f, depth: f32, per_metre: f32, 
     let place = nearest.y * a.before / max(nearest.y * a.before + (1.0 - nearest.y) * b.before, 1e-30);
     let away = mix(a.distance, b.distance, place);
     let fin_depth = select(depth * distance / away, behind + away * per_metre, is_parallel);
-    let is_there = part.x < part.y && nearest.x >= 0.0 && fin_depth > behind;
+    let is_there = part.x < part.y && a.before > 0.0 && b.before > 0.0 && fin_depth > behind;
     return Smoothie(select(2.0, nearest.x, is_there), fin_depth);
 }

@@ -1,6 +1,6 @@
 //! The light as the shader of the fins reads it.
 
-use crate::area_light::{Face, Form};
+use crate::area_light::{Face, Form, LINE_WIDTH};
 use crate::shader::{HostConstant, shader_struct};
 use umbrage_core::Bounds;
 use umbrage_core::glam::{DMat3, DVec3};
@@ -25,6 +25,7 @@ pub(super) const FACES: &[HostConstant] = &[
     ("DISC", Face::Disc as u32 as f64),
     ("SQUARE", Face::Square as u32 as f64),
     ("LINE", Face::Line as u32 as f64),
+    ("LINE_WIDTH", LINE_WIDTH as f32 as f64),
 ];
 
 impl SmoothieLight {

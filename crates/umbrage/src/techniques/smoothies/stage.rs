@@ -5,11 +5,11 @@ use super::Geometry;
 use super::Smoothies;
 use super::VIEWS;
 use super::light::SmoothieLight;
-use super::targets::{DEPTH, LEAST, Layered, layer_of};
+use super::targets::{DEPTH, LEAST, Layered};
 use crate::area_light::Form;
 use crate::casters::Casters;
 use crate::depth_maps::{EdgeDraw, EdgePass, EdgeTarget, LAYER_NAMES, MapFrame, Stage};
-use crate::fullscreen::{self, FLOATS, UNIFORM, bind, layout};
+use crate::fullscreen::{self, FLOATS, UNIFORM, bind, layer_view, layout};
 use crate::technique::DebugView;
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
 use umbrage_core::Bounds;
@@ -252,7 +252,7 @@ impl Made {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let light = gpu.buffer("light of smoothies", &[SmoothieLight::default()], usage);
         let fins = |layer: u32| {
-            let map = layer_of(maps, layer);
+            let map = layer_view(maps, layer);
             bind(gpu, "fins", of_fins, &[light.as_entire_binding(), wgpu::BindingResource::TextureView(&map)])
         };
         let read = [share.whole(), before.whole()];

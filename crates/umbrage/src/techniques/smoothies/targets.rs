@@ -1,6 +1,6 @@
 //! The textures that smoothies are drawn into: a layer for each of the maps.
 
-use crate::fullscreen::{attachment, target_texture};
+use crate::fullscreen::{attachment, layer_view, target_texture};
 use crate::gpu::Gpu;
 
 /// Of which the least is kept: this can be blended without optional features.
@@ -18,7 +18,7 @@ impl Layered {
     pub fn new(gpu: &Gpu, label: &str, maps: &wgpu::Texture, format: wgpu::TextureFormat) -> Self {
         let count = maps.depth_or_array_layers();
         let texture = target_texture(gpu, label, (maps.width(), maps.height()), count, format);
-        let layers = (0..count).map(|layer| layer_of(&texture, layer)).collect();
+        let layers = (0..count).map(|layer| layer_view(&texture, layer)).collect();
         Self { texture, layers }
     }
 
@@ -38,14 +38,4 @@ impl Layered {
         let texels = u64::from(size.width) * u64::from(size.height) * u64::from(size.depth_or_array_layers);
         texels * u64::from(format.block_copy_size(None).unwrap_or(4))
     }
-}
-
-/// One layer of an array.
-pub(super) fn layer_of(texture: &wgpu::Texture, layer: u32) -> wgpu::TextureView {
-    texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::D2),
-        base_array_layer: layer,
-        array_layer_count: Some(1),
-        ..Default::default()
-    })
 }
