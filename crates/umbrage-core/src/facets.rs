@@ -20,6 +20,9 @@ const MOST: usize = 64;
 /// Least area of a facet, as a share of the mesh's.
 const LEAST_SHARE: f64 = 0.002;
 
+/// So many of the largest groups are looked through for parts of one plane.
+const MOST_COMPARED: usize = 256;
+
 /// Corners may be off the plane by this share of the mesh's largest coordinate: some roundings of
 /// single precision.
 const FLATNESS: f64 = 1e-6;
@@ -39,6 +42,10 @@ pub fn facets(mesh: &Mesh) -> Vec<Facet> {
         groups.add(triangle);
     }
     let mut planes = groups.planes;
+    planes.iter_mut().for_each(Group::settle);
+    planes.sort_by(|a, b| b.area.total_cmp(&a.area));
+    planes.truncate(MOST_COMPARED);
+    unite(&mut planes, groups.tolerance);
     planes.retain(|plane| plane.area >= LEAST_SHARE * total);
     planes.sort_by(|a, b| b.area.total_cmp(&a.area));
     planes.truncate(MOST);
@@ -62,9 +69,12 @@ impl Triangle {
     }
 }
 
-/// A group of triangles; the first one, its largest, gives the plane.
+/// A group of triangles; the first one, its largest, gives the plane until all are there.
 struct Group {
     plane: DVec4,
+    /// Of all triangles: normals times areas, and middles times areas.
+    normals: DVec3,
+    middles: DVec3,
     right: DVec3,
     up: DVec3,
     low: DVec2,
@@ -82,6 +92,8 @@ impl Group {
         let right = side.unwrap_or(b - a).normalize();
         Self {
             plane: triangle.normal.extend(-triangle.normal.dot(a)),
+            normals: DVec3::ZERO,
+            middles: DVec3::ZERO,
             right,
             up: triangle.normal.cross(right),
             low: DVec2::INFINITY,
@@ -100,18 +112,61 @@ impl Group {
             (self.low, self.high) = (self.low.min(at), self.high.max(at));
         }
         self.area += triangle.area;
+        self.normals += triangle.normal * triangle.area;
+        self.middles += triangle.corners.into_iter().sum::<DVec3>() * (triangle.area / 3.0);
+    }
+
+    /// Takes the mean plane of all triangles: that of one is off by rounding over the triangle's
+    /// size, which many others multiply.
+    fn settle(&mut self) {
+        let Some(normal) = self.normals.try_normalize() else { return };
+        self.plane = normal.extend(-normal.dot(self.middles / self.area));
+        self.right = (self.right - normal * normal.dot(self.right)).normalize_or(normal.any_orthonormal_vector());
+        self.up = normal.cross(self.right);
+    }
+
+    /// The rectangle's corners, relative to the mesh's middle.
+    fn corners(&self) -> [DVec3; 4] {
+        let on_plane = self.plane.truncate() * -self.plane.w;
+        let at = |x: f64, y: f64| on_plane + self.right * x + self.up * y;
+        let (low, high) = (self.low, self.high);
+        [at(low.x, low.y), at(high.x, low.y), at(high.x, high.y), at(low.x, high.y)]
+    }
+
+    /// Takes in another one where both are parts of one plane; false where they are not.
+    fn take(&mut self, other: &Self, tolerance: f64) -> bool {
+        let holds =
+            |one: &Self, other: &Self| other.corners().iter().all(|p| one.plane.dot(p.extend(1.0)).abs() <= tolerance);
+        let is_one = holds(self, other) && holds(other, self);
+        if is_one {
+            for p in other.corners() {
+                let at = DVec2::new(self.right.dot(p), self.up.dot(p));
+                (self.low, self.high) = (self.low.min(at), self.high.max(at));
+            }
+            self.area += other.area;
+            self.normals += other.normals;
+            self.middles += other.middles;
+            self.settle();
+        }
+        is_one
     }
 
     fn facet(&self, center: DVec3) -> Facet {
-        let on_plane = self.plane.truncate() * -self.plane.w;
-        let at = |x: f64, y: f64| center + on_plane + self.right * x + self.up * y;
-        let (low, high) = (self.low, self.high);
-        let size = high - low;
-        Facet {
-            corners: [at(low.x, low.y), at(high.x, low.y), at(high.x, high.y), at(low.x, high.y)],
-            share: (self.area / (size.x * size.y)).clamp(0.0, 1.0),
+        let size = self.high - self.low;
+        Facet { corners: self.corners().map(|p| p + center), share: (self.area / (size.x * size.y)).clamp(0.0, 1.0) }
+    }
+}
+
+/// Makes one of groups that are parts of one plane: a tessellated surface that no axis is
+/// perpendicular to is rounded into several.
+fn unite(planes: &mut Vec<Group>, tolerance: f64) {
+    let mut united: Vec<Group> = Vec::new();
+    for group in planes.drain(..) {
+        if !united.iter_mut().any(|other| other.take(&group, tolerance)) {
+            united.push(group);
         }
     }
+    *planes = united;
 }
 
 /// Groups, found again by direction and offset in coarse steps.
@@ -170,19 +225,31 @@ mod tests {
     }
 
     #[test]
-    fn many_small_coplanar_triangles_are_one_facet() {
+    fn many_small_coplanar_triangles_are_one_facet_in_any_direction() {
+        let turned = DAffine3::from_mat3(DMat3::from_rotation_x(0.4) * DMat3::from_rotation_z(1.1));
+        for side in [10, 100, 200_u32] {
+            let mesh = tiles(side);
+            for mesh in [mesh.transformed(&turned), mesh] {
+                let found = facets(&mesh);
+                assert_eq!(found.len(), 1, "{side}: {found:?}");
+                let all = f64::from(side * side);
+                assert!((area(&found[0]) / all - 1.0).abs() < 1e-3 && (found[0].share - 1.0).abs() < 1e-3, "{side}");
+            }
+        }
+    }
+
+    /// Squares of side 1 beside each other, wound either way.
+    fn tiles(side: u32) -> Mesh {
         let mut mesh = Mesh::default();
-        for i in 0..100_u32 {
-            let (x, z) = ((i % 10) as f32, (i / 10) as f32);
+        for i in 0..side * side {
+            let (x, z) = ((i % side) as f32, (i / side) as f32);
             let first = mesh.positions.len() as u32;
             mesh.positions
                 .extend([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(u, v)| Vec3::new(x + u, 2.0, z + v)));
             let quad = if i % 3 == 0 { [0, 1, 2, 0, 2, 3] } else { [0, 2, 1, 0, 3, 2] };
             mesh.indices.extend(quad.map(|k| first + k));
         }
-        let found = facets(&mesh);
-        assert_eq!(found.len(), 1);
-        assert!((area(&found[0]) - 100.0).abs() < 1e-3 && (found[0].share - 1.0).abs() < 1e-3);
+        mesh
     }
 
     #[test]

@@ -22,8 +22,10 @@ pub(crate) struct ScenePlanes {
     spare: Vec<u32>,
     /// Numbers of planes, by place in [`super::Casters::placed`].
     of_place: Vec<Vec<u32>>,
-    /// Points may be off by so much and be in a plane, metres.
+    /// Points may be off by so much and be in a plane, metres; more where receivers move far out.
     flatness: f64,
+    /// Steps of [`Cell`] in metres, which stay.
+    step: f64,
     version: u64,
     /// Receivers without a plane.
     without: u64,
@@ -76,8 +78,7 @@ impl ScenePlanes {
             true => facets(&part.mesh),
             false => Vec::new(),
         };
-        let boxes = placed.iter().filter(|p| !p.bounds.is_empty());
-        let size = boxes.map(|p| (p.bounds.min - origin).abs().max((p.bounds.max - origin).abs()).max_element());
+        let flatness = placed.iter().map(|p| flatness(origin, p)).fold(0.0, f64::max);
         let mut planes = Self {
             origin,
             facets: meshes.iter().enumerate().map(of_mesh).collect(),
@@ -85,7 +86,8 @@ impl ScenePlanes {
             cells: HashMap::new(),
             spare: Vec::new(),
             of_place: vec![Vec::new(); placed.len()],
-            flatness: FLATNESS * size.fold(0.0, f64::max),
+            flatness,
+            step: 1e2 * flatness,
             version: next_version(),
             without: 0,
         };
@@ -117,6 +119,11 @@ impl ScenePlanes {
 
     /// After an instance has moved; `solid` where it is a convex body, wound outwards.
     pub(super) fn update(&mut self, place: u32, placed: &Placed, solid: bool) {
+        // What joints bend has no planes.
+        if placed.posed {
+            return;
+        }
+        self.flatness = self.flatness.max(flatness(self.origin, placed));
         for number in std::mem::take(&mut self.of_place[place as usize]) {
             let plane = &mut self.planes[number as usize];
             plane.remove(place);
@@ -146,7 +153,10 @@ impl ScenePlanes {
                 let body = plane.plane.dot((placed.bounds.center() - self.origin).extend(1.0)).signum();
                 let body = if solid { body } else { 0.0 };
                 plane.add(Member { body, ..Member::new(plane, place, &corners, facet.share) });
-                self.of_place[place as usize].push(number);
+                let of = &mut self.of_place[place as usize];
+                if !of.contains(&number) {
+                    of.push(number);
+                }
             }
         }
         self.facets[placed.mesh as usize] = facets;
@@ -161,8 +171,8 @@ impl ScenePlanes {
         let middle = (a + b + c + d) * 0.25;
         let plane = normal.extend(-normal.dot(middle));
         let [x, y, z] = (normal * 1e3).round().to_array().map(|v| v as i64);
-        let step = (plane.w / (1e2 * self.flatness)).round() as i64;
-        for near in [step, step - 1, step + 1] {
+        let step = (plane.w / self.step).round() as i64;
+        for near in [step, step.saturating_sub(1), step.saturating_add(1)] {
             let found = self.cells.get(&[x, y, z, near]).into_iter().flatten();
             let fits = |i: &&u32| self.planes[**i as usize].holds(corners, self.flatness);
             if let Some(&number) = found.into_iter().find(fits) {
@@ -178,6 +188,12 @@ impl ScenePlanes {
         }
         Some(number)
     }
+}
+
+/// How far off its planes an instance may be by rounding, metres.
+fn flatness(origin: DVec3, placed: &Placed) -> f64 {
+    let far = (placed.bounds.min - origin).abs().max((placed.bounds.max - origin).abs()).max_element();
+    if placed.bounds.is_empty() { 0.0 } else { FLATNESS * far }
 }
 
 impl ScenePlane {
@@ -277,6 +293,37 @@ mod tests {
         }
         scene.place(cube, material, DAffine3::from_translation(far + DVec3::new(0.2, 0.5, 0.0)));
         scene
+    }
+
+    #[test]
+    fn planes_are_used_again_by_one_alone() {
+        let gpu = Gpu::request(None).expect("this test needs a graphics adapter");
+        let mut scene = scene();
+        // Both of its sides are in one plane.
+        scene.place(
+            1,
+            0,
+            DAffine3::from_scale_rotation_translation(
+                DVec3::new(1.0, 1e-9, 1.0),
+                Default::default(),
+                DVec3::new(1e7, 2.0, 3e6),
+            ),
+        );
+        let mut casters = Casters::new(&gpu, &scene).expect("casters");
+        casters.receiver_planes();
+        for i in 0..50 {
+            for instance in [3, 0] {
+                let up = DAffine3::from_translation(DVec3::Y * 0.01 * f64::from(i));
+                casters.move_instance(&gpu, instance, &(up * scene.instances[instance].world_from_mesh));
+            }
+        }
+        let planes = casters.receiver_planes();
+        let mut spare = planes.spare.clone();
+        spare.sort_unstable();
+        spare.dedup();
+        assert_eq!(spare.len(), planes.spare.len(), "a plane is spare twice");
+        assert!(spare.iter().all(|&number| planes.all()[number as usize].is_empty()), "a spare plane is in use");
+        assert!(planes.all().len() < 20, "{} planes", planes.all().len());
     }
 
     #[test]

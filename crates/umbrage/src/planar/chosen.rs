@@ -73,6 +73,7 @@ impl Chosen {
         let eye = view.camera.eye - origin;
         let least = casters.receiver_planes().flatness() + wanted.tolerance;
         self.tally.receivers_without = casters.receiver_planes().receivers_without();
+        let screen = Screen::of(view);
         for seen in self.seen.list() {
             self.tally.seen += 1;
             let lit = LitPlane::of(seen, origin, light, least);
@@ -82,7 +83,7 @@ impl Chosen {
             };
             if !lit.is_before(eye) {
                 self.tally.unlit += 1;
-                if self.behind.len() < most && lit.may_straddle() {
+                if self.behind.len() < MOST {
                     self.behind.push(lit);
                 }
                 continue;
@@ -91,17 +92,19 @@ impl Chosen {
                 self.tally.left_out += 1;
                 continue;
             }
-            lit.grow(margin(&lit));
+            let margin = margin(&lit);
+            lit.grow(margin);
             find(casters, &mut lit, wanted.cull, &mut self.found, &mut self.pierced);
             let list = &mut self.lists[self.planes.len()];
             self.numbers.list(casters, &self.found, None, Some(&self.pierced), list);
-            if list.draws() == 0 {
+            // What falls beside the screen shadows nothing, unless it is blurred into it.
+            let around = lit.corners(lit.low - margin, lit.high + margin);
+            if list.draws() == 0 || self.clipper.clip(&screen, around).len() < 3 {
                 self.tally.unshadowed += 1;
             } else {
                 self.planes.push(lit);
             }
         }
-        let screen = Screen::of(view);
         for plane in self.planes.iter().chain(&self.behind) {
             self.rects.push(screen.rect(self.clipper.clip(&screen, plane.corners(plane.low, plane.high))));
         }
@@ -182,5 +185,7 @@ fn find(casters: &Casters, plane: &mut LitPlane, cull: bool, found: &mut Vec<u32
     pierced.sort_unstable();
     if found.len() <= MOST_ENCLOSED {
         plane.shrink(found.iter().map(|place| &casters.placed()[*place as usize].bounds));
+    } else {
+        plane.highest = plane.reach_of(&casters.casting().content());
     }
 }

@@ -34,9 +34,6 @@ pub(crate) struct LitPlane {
 /// Least sine of the angle between parallel light and a plane.
 const LEAST_SINE: f64 = 1e-6;
 
-/// Sine of the angle at which a light that shines on a plane from behind is taken to be all there.
-const STEEP: f64 = 0.5;
-
 /// Share of the light's height up to which a caster counts as below the light.
 const BELOW: f64 = 0.999;
 
@@ -74,13 +71,6 @@ impl LitPlane {
     /// True where a point, relative to the origin, is on the light's side.
     pub fn is_before(&self, p: DVec3) -> bool {
         self.plane.dot(p.extend(1.0)) > 0.0
-    }
-
-    /// False where the light is so far behind the plane that no part of an area light in its place
-    /// would be in front of it: no point sees any of that then, nor is scored.
-    pub(super) fn may_straddle(&self) -> bool {
-        let toward = |(p, _): (DVec3, DVec2)| self.light - p * self.inverse_height;
-        self.corners(self.low, self.high).into_iter().any(|corner| toward(corner).length() * STEEP > 1.0)
     }
 
     /// A point of the plane, relative to the origin.

@@ -55,6 +55,7 @@ impl SeenPlanes {
         self.find(view, planes);
         self.list.sort_by(|a, b| b.pixels.total_cmp(&a.pixels));
         self.unite(tolerance + planes.flatness());
+        self.list.sort_by(|a, b| b.pixels.total_cmp(&a.pixels));
         self.of = Some(key);
     }
 

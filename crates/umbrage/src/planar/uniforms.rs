@@ -209,7 +209,7 @@ impl PlaneShadow {
             inverse_height: plane.inverse_height as f32,
             eye: eye.as_vec3().to_array(),
             nearest: nearest as f32,
-            least: plane.least as f32,
+            least: plane.least.max(1e-6 * eye.abs().max_element()) as f32,
             highest: plane.highest.min(f32::MAX.into()) as f32,
             ..Self::default()
         }

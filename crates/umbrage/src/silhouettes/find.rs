@@ -34,7 +34,8 @@ impl Find {
         let bindings = [STORAGE, written, written, UNIFORM];
         let layout = layout(gpu, "find silhouettes", wgpu::ShaderStages::COMPUTE, &bindings);
         let module = FIND_SHADER.module(gpu);
-        let groups = [Some(&layout), Some(&Edges::find_layout(gpu))];
+        let edges = Edges::find_layout(gpu);
+        let groups = [Some(&layout), Some(&edges)];
         let pipeline = |entry| compute_pipeline(gpu, &module, entry, &groups, &[]);
         Self { sides: pipeline("find_sides"), caps: pipeline("find_caps"), group: pipeline("group_entries"), layout }
     }

@@ -52,7 +52,7 @@ fn lights_in_and_behind_planes_and_scenes_without_planes_leave_all_lit() {
     let with_sphere = |lamp: DVec3| {
         let mut scene = floor(lamp);
         scene.instances[0].casts = false;
-        let sphere = scene.add_mesh(primitive::sphere(16, 8));
+        let sphere = scene.add_mesh(primitive::sphere(64, 32));
         scene.place(sphere, 0, DAffine3::from_translation(DVec3::Y * 2.0));
         scene
     };
@@ -86,8 +86,7 @@ fn planes_beyond_the_limit_are_counted() {
         renderer.counts(0)
     };
     let (all, two) = (counts("planes=32"), counts("planes=2"));
-    let of =
-        |counts: &[(&str, u64)], name: &str| counts.iter().find(|(n, _)| *n == name).map_or(0, |(_, count)| *count);
+    let of = |counts: &[(&str, u64)], name: &str| counts.iter().find(|(n, _)| *n == name).unwrap().1;
     assert_eq!((of(&all, "planes left out"), of(&two, "planes drawn")), (0, 2), "{all:?}, {two:?}");
     assert!(of(&all, "planes drawn") > 4, "{all:?}");
     let others = of(&two, "planes not facing the light") + of(&two, "planes without casters");

@@ -123,9 +123,7 @@ fn lights_in_casters_and_far_away_are_no_trouble() {
     let center = DVec3::new(0.0, 1.0, 0.0);
     for (position, floor) in [(center, 0.0), (DVec3::new(0.0, 1e6, 0.0), 1.0), (DVec3::new(0.0, -1e6, 0.0), 0.0)] {
         let scene = box_scene(LightShape::Point { position });
-        // A light far behind a plane is nothing to `projective`: no pixel there is scored.
-        let projective = ["projective"].into_iter().filter(|_| position.y > 0.0);
-        for id in ["shadow-map", "pcf", "volume", "projective-fake"].into_iter().chain(projective) {
+        for id in ["shadow-map", "pcf", "volume", "projective", "projective-fake"] {
             let seen = visibility(&mut renderer(&gpu, &scene, 0, id, "", (160, 120)), &scene);
             assert_eq!(seen[(80, 110)], floor, "{id} {position}");
         }

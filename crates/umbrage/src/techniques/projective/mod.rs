@@ -21,10 +21,11 @@ settings! {
         /// may shadow.
         planes: u32 = 16, in 1..=32, unit "planes",
         /// How far off a plane a point may lie and still have the plane's shadows, beyond what
-        /// rounding explains: for floors that are not quite flat.
+        /// rounding explains: for floors that are not quite flat. What is no higher than that over
+        /// a plane casts no shadow on it.
         tolerance: f64 = 0.0, in 0.0..=10.0, unit "m",
-        /// Leaves out casters whose shadow falls beside what is seen of a plane. The picture is the
-        /// same.
+        /// Leaves out casters whose shadow falls beside what is seen of a plane, and planes that
+        /// have no others.
         cull: bool = true,
     }
 }

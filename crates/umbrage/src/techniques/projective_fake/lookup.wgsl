@@ -6,8 +6,6 @@ override KERNEL: u32 = 7u;
 // Shadows are as soft as the light makes them.
 override BY_LIGHT: bool = true;
 
-const MOST_PLANES_OF: u32 = 32u;
-
 // What is in shadow is below this, see `cast.wgsl`.
 const SHADOWED: f32 = 1.5;
 
@@ -16,13 +14,14 @@ struct PlaneTexture {
     across: vec4f,
     down: vec4f,
     normal: vec3f,
-    // Half axes of the blur are those of the light over its height, or metres.
+    // One over the light's height, 0 for parallel light.
     inverse_height: f32,
     // The light relative to the eye over its height; see `plane_shadow.wgsl`.
     light: vec3f,
     // What 1 stands for in the texture, metres of `cast.wgsl`.
     highest: f32,
-    // Half axes of the light, metres over its height; those of a sphere turn with the receiver.
+    // Half axes of the light, metres over its height, of which those of a sphere turn with the
+    // receiver; of a fixed blur, metres.
     right: vec3f,
     radius: f32,
     up: vec3f,
@@ -35,7 +34,7 @@ struct Textures {
     radius: f32,
     up: vec3f,
     is_round: f32,
-    planes: array<PlaneTexture, MOST_PLANES_OF>,
+    planes: array<PlaneTexture, MOST_PLANES>,
 }
 
 @group(2) @binding(0) var<uniform> textures: Textures;
@@ -105,8 +104,7 @@ fn reach_at(texel: vec2f, plane: u32) -> f32 {
     return select(2.0, textureLoad(shadows, at, plane, 0).x, inside);
 }
 
-// Searches for blockers within the widest penumbra, then closer by.
-const SEARCHES: u32 = 3u;
+// Blockers are searched for within the widest penumbra, then closer and closer by, down to a texel.
 const CLOSER: f32 = 0.3;
 const SEARCH: u32 = 5u;
 
@@ -114,8 +112,8 @@ const SEARCH: u32 = 5u;
 fn mean_reach(blur: Blur) -> f32 {
     var sum = 0.0;
     var count = 0.0;
-    var within = 1.0;
-    for (var search = 0u; search < SEARCHES; search++) {
+    let widest = max(length(blur.right), length(blur.up));
+    for (var within = 1.0; within * widest > 0.5; within *= CLOSER) {
         for (var i = 0u; i < SEARCH * SEARCH; i++) {
             let q = on_light(tap(i, SEARCH), blur.is_round);
             let reach = reach_at(blur.middle + (blur.right * q.x + blur.up * q.y) * within, blur.plane);
@@ -125,7 +123,6 @@ fn mean_reach(blur: Blur) -> f32 {
             sum += hides * reach;
             count += hides;
         }
-        within *= CLOSER;
     }
     return select(-1.0, sum / max(count, 1.0), count > 0.0);
 }
@@ -178,14 +175,14 @@ fn past_casters(shown: Shown, position: vec3f) -> f32 {
         return 1.0;
     }
     let blur = blur_at(plane, position);
-    if !BY_LIGHT {
-        return mean_light(blur, 1.0);
-    }
     // Beside all shadows.
     let size = vec2f(textureDimensions(shadows));
     let widest = abs(blur.right) + abs(blur.up) + 1.0;
     if any(blur.middle < -widest) || any(blur.middle > size + widest) {
         return 1.0;
+    }
+    if !BY_LIGHT {
+        return mean_light(blur, 1.0);
     }
     let reach = mean_reach(blur);
     if reach < 0.0 {

@@ -39,10 +39,10 @@ settings! {
         /// those that something may shadow.
         planes: u32 = 4, in 1..=32, unit "planes",
         /// How far off a plane a point may lie and still have the plane's shadows, beyond what
-        /// rounding explains.
+        /// rounding explains. What is no higher than that over a plane casts no shadow on it.
         tolerance: f64 = 0.0, in 0.0..=10.0, unit "m",
-        /// Leaves out casters whose shadow falls beside what is seen of a plane. The picture is the
-        /// same.
+        /// Leaves out casters whose shadow falls beside what is seen of a plane, and planes that
+        /// have no others.
         cull: bool = true,
     }
 }

@@ -53,8 +53,10 @@ impl Blur {
         let seen = (plane.high - plane.low).max_element();
         match self.softness {
             Softness::Light => {
+                // A light without extent blurs nothing, however high casters are.
+                let extent = extent(view, plane);
                 let highest = plane.reach_of(&view.casters.casting().content());
-                (extent(view, plane) * highest).min(FARTHEST * seen)
+                if extent > 0.0 { (extent * highest).min(FARTHEST * seen) } else { 0.0 }
             }
             Softness::Fixed if self.radius_m > 0.0 => self.radius_m,
             Softness::Fixed => seen * f64::from(self.kernel) / f64::from(self.size),

@@ -15,6 +15,9 @@ use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
 use umbrage_core::Bounds;
 use umbrage_core::glam::DVec3;
 
+/// Where receivers may be, as far as is known.
+const EVERYWHERE: Bounds = Bounds { min: DVec3::splat(-1e30), max: DVec3::splat(1e30) };
+
 /// Draws smoothies of all casters: the least share of light, and the nearest of them.
 pub(super) struct SmoothieStage {
     /// As wide as the light; else some texels.
@@ -25,6 +28,8 @@ pub(super) struct SmoothieStage {
     of_fins: wgpu::BindGroupLayout,
     made: Option<Made>,
     light: SmoothieLight,
+    /// The same with all receivers that there could be, where somebody looks at fins.
+    shown_light: Option<SmoothieLight>,
     /// By layer: what it was drawn for.
     drawn: Vec<Option<Drawn>>,
     /// Nothing has a fin.
@@ -115,6 +120,7 @@ impl SmoothieStage {
             of_fins,
             made: None,
             light: SmoothieLight::default(),
+            shown_light: None,
             drawn: Vec::new(),
             is_hard: false,
             shown: None,
@@ -134,8 +140,8 @@ impl SmoothieStage {
     /// A box around all receivers that the maps are looked up for.
     fn receivers(&self, frame: &MapFrame) -> Bounds {
         // Without remapping, every receiver is as if it were infinitely far away.
-        if !self.remap || self.shown.is_some() {
-            return Bounds { min: DVec3::splat(-1e30), max: DVec3::splat(1e30) };
+        if !self.remap {
+            return EVERYWHERE;
         }
         let around = frame.scene.receivers.iter().fold(Bounds::EMPTY, |all, one| all.union(*one));
         around.grown(1e-4 * around.largest_coordinate())
@@ -154,6 +160,8 @@ impl Stage for SmoothieStage {
         let form = Form::of(shape, false, 0.0);
         let receivers = self.receivers(frame);
         self.light = SmoothieLight::new(&form, view.casters.origin(), &receivers);
+        // Who looks at fins wants to see all of them.
+        self.shown_light = self.shown.map(|_| SmoothieLight::new(&form, view.casters.origin(), &EVERYWHERE));
         self.is_hard = (self.follows_light && form.is_point()) || receivers.is_empty();
         if self.is_hard {
             return Ok(());
@@ -174,12 +182,15 @@ impl Stage for SmoothieStage {
         }
         let is_square = self.follows_light && self.light.is_square();
         let draw = if is_square { Draw::Square } else { Draw::Round };
-        let mut draws = 0;
-        for (i, view) in frame.views.iter().enumerate().filter(|(_, view)| is_new(view.layer)) {
-            for draw in [Some(draw), made.shown.as_ref().map(|(shown, _)| shown.draw())].into_iter().flatten() {
-                let pass = Some(&self.pass).filter(|_| !self.is_hard);
-                draws += made.record(passes, pass, (i, view.layer as usize), draw);
-            }
+        let pass = Some(&self.pass).filter(|_| !self.is_hard);
+        let all = |passes: &mut Passes<'_>, draw| {
+            let new = frame.views.iter().enumerate().filter(|(_, view)| is_new(view.layer));
+            new.map(|(i, view)| made.record(passes, pass, (i, view.layer as usize), draw)).sum::<u32>()
+        };
+        let mut draws = all(passes, draw);
+        if let (Some((shown, _)), Some(light)) = (&made.shown, &self.shown_light) {
+            passes.upload(&made.light, bytemuck::bytes_of(light));
+            draws += all(passes, shown.draw());
         }
         for view in &frame.views {
             let now = now(view.layer);
