@@ -97,7 +97,7 @@ const GOLDEN: &[Row] = &[
     ("terrain", 0.5, 0, "projective", "", 540.0, 99.0),
     // Texels on planes, averaged by a kernel; four planes.
     ("primitives", 1.0, 0, "projective-fake", "", 8.3, 99.95),
-    ("contact", 1.0, 0, "projective-fake", "", 42.0, 99.95),
+    ("contact", 1.0, 0, "projective-fake", "", 19.5, 99.95),
     ("overlap", 1.0, 0, "projective-fake", "", 7.5, 99.95),
     ("primitives", 1.0, 0, "wedges", "", 0.3, 100.0),
     ("city", 1.0, 0, "wedges", "", 0.3, 100.0),

@@ -165,7 +165,7 @@ fn every_picture_shows_something_and_changes_no_shadow() {
         (shown, shadow.data)
     };
     let (_, shadow) = frame(None);
-    for (name, nothing) in [("smoothie-depth-3", 0.0), ("alpha-before-3", 1.0), ("alpha-3", 1.0)] {
+    for (name, nothing) in [("smoothie-depth-0", 0.0), ("alpha-before-0", 1.0), ("alpha-0", 1.0)] {
         let (shown, seen) = frame(Some(name));
         assert!(seen == shadow, "{name} changes the shadow");
         let data = shown.unwrap_or_else(|| panic!("{name} is not shown")).data;
