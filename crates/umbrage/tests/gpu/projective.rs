@@ -65,7 +65,11 @@ fn lights_in_and_behind_planes_and_scenes_without_planes_leave_all_lit() {
     ] {
         for id in ["projective", "projective-fake"] {
             let s = against_truth(&gpu, &scene, 0, id, "", SIZE, 1);
-            assert_eq!((s.mae, s.not_finite), (0.0, 0), "{id}, {what}");
+            // Where a sphere turns away from the light, a coarser rasteriser may show another
+            // triangle.
+            let others = if gpu.snapping() > 1.0 / 256.0 { 2.0 } else { 0.0 };
+            assert!(s.mae * s.scored_pixels as f64 <= others, "{id}, {what}: {}", s.mae);
+            assert_eq!(s.not_finite, 0, "{id}, {what}");
         }
     }
 }
