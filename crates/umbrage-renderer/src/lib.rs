@@ -162,9 +162,9 @@ impl Renderer {
                 passes.owner(Owner::Light(lit.number));
                 let view = scene.view(&lit.light);
                 let start = Instant::now();
-                lit.technique.prepare(&self.gpu, &view)?;
+                let prepared = lit.technique.prepare(&self.gpu, &view)?;
                 preparing += start.elapsed();
-                lit.target.record(&mut *lit.technique, &mut passes, &view)?;
+                lit.target.record(prepared, &mut passes)?;
                 shade(&mut passes, lit);
             }
         }
@@ -201,7 +201,7 @@ impl Renderer {
         self.recorder.times()
     }
 
-    /// CPU time that [`Technique::prepare`] took in the last frame, all lights together,
+    /// CPU time that preparing techniques took in the last frame, all lights together,
     /// milliseconds. Recording does not count, but in an overlay, which is prepared and recorded in
     /// one.
     pub fn prepare_ms(&self) -> f64 {

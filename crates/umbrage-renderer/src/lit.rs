@@ -1,7 +1,9 @@
 //! A light of the picture, and what the views of all lights share.
 
 use crate::shading::{Shading, Slot};
-use umbrage::{Answer, Casters, Error, Gpu, Passes, RadianceTarget, Receivers, Technique, View, VisibilityTarget};
+use umbrage::{
+    Answer, Casters, Error, Gpu, Passes, Prepared, RadianceTarget, Receivers, Technique, View, VisibilityTarget,
+};
 use umbrage_core::{CameraView, Light, Texture};
 
 /// A light, its technique and what came out.
@@ -42,11 +44,11 @@ impl Target {
         }
     }
 
-    /// Has `technique` leave its answer.
-    pub fn record(&self, technique: &mut dyn Technique, passes: &mut Passes<'_>, view: &View<'_>) -> Result<(), Error> {
+    /// Has a technique leave its answer.
+    pub fn record(&self, prepared: Prepared<'_>, passes: &mut Passes<'_>) -> Result<(), Error> {
         match self {
-            Self::Visibility(target, _) => technique.record(passes, view, target),
-            Self::Radiance(target, _) => technique.record_radiance(passes, view, target),
+            Self::Visibility(target, _) => prepared.record(passes, target),
+            Self::Radiance(target, _) => prepared.record_radiance(passes, target),
         }
     }
 }

@@ -3,18 +3,26 @@
 
 use umbrage::core::{Image, Scene};
 use umbrage::fullscreen::attachment;
-use umbrage::{Answer, Error, Gpu, Inside, Passes, RadianceTarget, Stats, Technique, View, VisibilityTarget, find};
+use umbrage::{
+    Answer, Error, Gpu, InOrder, Inside, Passes, RadianceTarget, Stats, Technique, View, VisibilityTarget, find,
+};
 use umbrage_renderer::{LightPass, Renderer};
 
 /// The same radiance from every surface.
 struct Constant([f64; 3]);
 
 impl Technique for Constant {
-    fn prepare(&mut self, _: &Gpu, _: &View<'_>) -> Result<(), Error> {
+    fn prepare_view(&mut self, _: &Gpu, _: &View<'_>, _: InOrder) -> Result<(), Error> {
         Ok(())
     }
 
-    fn record(&mut self, _: &mut Passes<'_>, _: &View<'_>, _: &VisibilityTarget) -> Result<(), Error> {
+    fn record_visibility(
+        &mut self,
+        _: &mut Passes<'_>,
+        _: &View<'_>,
+        _: &VisibilityTarget,
+        _: InOrder,
+    ) -> Result<(), Error> {
         self.answer().refuse()
     }
 
@@ -27,6 +35,7 @@ impl Technique for Constant {
         passes: &mut Passes<'_>,
         view: &View<'_>,
         radiance: &RadianceTarget,
+        _: InOrder,
     ) -> Result<(), Error> {
         radiance.check(view.receivers)?;
         let [r, g, b] = self.0;

@@ -236,17 +236,23 @@ fn cost(frames: &Frames, renderer: &Renderer) -> CostRecord {
 mod tests {
     use super::*;
     use crate::progress::Silent;
-    use umbrage::{Inside, Passes, RadianceTarget, Stats, View, VisibilityTarget, fullscreen::attachment};
+    use umbrage::{InOrder, Inside, Passes, RadianceTarget, Stats, View, VisibilityTarget, fullscreen::attachment};
 
     /// The same radiance from everywhere.
     struct Constant([f64; 3]);
 
     impl Technique for Constant {
-        fn prepare(&mut self, _: &Gpu, _: &View<'_>) -> Result<(), umbrage::Error> {
+        fn prepare_view(&mut self, _: &Gpu, _: &View<'_>, _: InOrder) -> Result<(), umbrage::Error> {
             Ok(())
         }
 
-        fn record(&mut self, _: &mut Passes<'_>, _: &View<'_>, _: &VisibilityTarget) -> Result<(), umbrage::Error> {
+        fn record_visibility(
+            &mut self,
+            _: &mut Passes<'_>,
+            _: &View<'_>,
+            _: &VisibilityTarget,
+            _: InOrder,
+        ) -> Result<(), umbrage::Error> {
             self.answer().refuse()
         }
 
@@ -259,6 +265,7 @@ mod tests {
             passes: &mut Passes<'_>,
             _: &View<'_>,
             radiance: &RadianceTarget,
+            _: InOrder,
         ) -> Result<(), umbrage::Error> {
             let [r, g, b] = self.0;
             let color = wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a: 1.0 });

@@ -1,6 +1,6 @@
 //! Visibility that is already known, as a technique: with it the renderer shades the reference.
 
-use umbrage::{Error, Gpu, Inside, Passes, Stats, Technique, View, VisibilityTarget};
+use umbrage::{Error, Gpu, InOrder, Inside, Passes, Stats, Technique, View, VisibilityTarget};
 use umbrage_core::Image;
 
 /// Writes one picture, whatever the view.
@@ -68,11 +68,17 @@ fn upload(gpu: &Gpu, picture: &Image<f32>) -> wgpu::TextureView {
 }
 
 impl Technique for Given {
-    fn prepare(&mut self, _: &Gpu, _: &View<'_>) -> Result<(), Error> {
+    fn prepare_view(&mut self, _: &Gpu, _: &View<'_>, _: InOrder) -> Result<(), Error> {
         Ok(())
     }
 
-    fn record(&mut self, passes: &mut Passes<'_>, _: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+    fn record_visibility(
+        &mut self,
+        passes: &mut Passes<'_>,
+        _: &View<'_>,
+        visibility: &VisibilityTarget,
+        _: InOrder,
+    ) -> Result<(), Error> {
         let mut pass = passes.render("given visibility", &[visibility.overwrite()], None);
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.picture, &[]);

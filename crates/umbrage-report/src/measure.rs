@@ -61,7 +61,7 @@ impl Frames {
         Spread::of(self.frame_ms.iter().copied())
     }
 
-    /// The CPU time of [`umbrage::Technique::prepare`], milliseconds.
+    /// The CPU time of preparing techniques, milliseconds.
     pub(crate) fn prepare(&self) -> Spread {
         Spread::of(self.prepare_ms.iter().copied())
     }

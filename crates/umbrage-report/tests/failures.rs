@@ -2,8 +2,8 @@
 //! techniques that fail are those of a host, added to the registry.
 
 use umbrage::{
-    Configure, Error, Family, Gpu, Inside, Passes, Registry, SettingsOf, Stats, Technique, TechniqueInfo, View,
-    VisibilityTarget, core::LightKinds, settings,
+    Configure, Error, Family, Gpu, InOrder, Inside, Passes, Registry, SettingsOf, Stats, Technique, TechniqueInfo,
+    View, VisibilityTarget, core::LightKinds, settings,
 };
 use umbrage_report::{Bench, Choice, Compare, Moving, Silent, Source, Sweep, record::Status};
 
@@ -65,7 +65,7 @@ struct Broken {
 }
 
 impl Technique for Broken {
-    fn prepare(&mut self, gpu: &Gpu, _: &View<'_>) -> Result<(), Error> {
+    fn prepare_view(&mut self, gpu: &Gpu, _: &View<'_>, _: InOrder) -> Result<(), Error> {
         if self.fault == Fault::Prepare {
             return Err(Error::Scene("not prepared".into()));
         }
@@ -78,7 +78,13 @@ impl Technique for Broken {
         Ok(())
     }
 
-    fn record(&mut self, passes: &mut Passes<'_>, _: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+    fn record_visibility(
+        &mut self,
+        passes: &mut Passes<'_>,
+        _: &View<'_>,
+        visibility: &VisibilityTarget,
+        _: InOrder,
+    ) -> Result<(), Error> {
         if self.fault == Fault::Record {
             return Err(Error::Scene("not recorded".into()));
         }

@@ -70,9 +70,9 @@ pub fn frames(count: u32) -> Result<umbrage::core::Image<f32>, Box<dyn std::erro
         casters.move_instance(&gpu, 1, &turned);
         let view =
             View { camera: host_camera(), receivers: &receivers, casters: &casters, light: &light, textures: &[] };
-        technique.prepare(&gpu, &view)?;
+        let prepared = technique.prepare(&gpu, &view)?;
         let mut passes = recorder.begin(&mut encoder);
-        technique.record(&mut passes, &view, &visibility)?;
+        prepared.record(&mut passes, &visibility)?;
         passes.finish();
         queue.submit([encoder.finish()]);
 

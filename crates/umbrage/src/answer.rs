@@ -7,11 +7,11 @@ use crate::{error::Error, gpu::Gpu, receivers::Receivers, visibility::same_size}
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Answer {
     /// The share of a light that each pixel sees, in a [`crate::VisibilityTarget`]:
-    /// [`crate::Technique::record`].
+    /// [`crate::Prepared::record`].
     #[default]
     Visibility,
     /// The light that leaves what each pixel shows for the eye, in a [`RadianceTarget`]:
-    /// [`crate::Technique::record_radiance`].
+    /// [`crate::Prepared::record_radiance`].
     Radiance,
 }
 

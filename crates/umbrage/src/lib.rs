@@ -23,10 +23,10 @@
 //!     camera, receivers: &receivers, casters: &casters,
 //!     light: &scene.lights[0], textures: &scene.textures,
 //! };
-//! technique.prepare(&gpu, &view)?;
+//! let prepared = technique.prepare(&gpu, &view)?;
 //! let mut encoder = gpu.device.create_command_encoder(&Default::default());
 //! let mut passes = recorder.begin(&mut encoder);
-//! technique.record(&mut passes, &view, &visibility)?;
+//! prepared.record(&mut passes, &visibility)?;
 //! passes.finish();
 //! gpu.queue.submit([encoder.finish()]);
 //! # Ok(()) }
@@ -51,6 +51,7 @@ mod light_samples;
 mod moment_maps;
 mod passes;
 mod planar;
+mod prepared;
 #[cfg(test)]
 mod probe;
 pub mod read;
@@ -71,13 +72,14 @@ pub use error::{Error, nearest};
 pub use gpu::{AdapterSummary, Gpu};
 pub use light_samples::light_samples;
 pub use passes::{Owner, Pass, PassFragments, PassTime, Passes, Recorder};
+pub use prepared::Prepared;
 pub use receivers::{Eye, Receivers};
 pub use registry::{Filter, FilterId, FilterUse, Registry, find, parse, techniques};
 #[doc(hidden)]
 pub use settings::declare;
 pub use settings::{Configure, Group, Param, ParamKind, Setting, Settings, Value, read as read_settings};
 pub use shader::{HostConstant, HostLayout, Module, Shader, Shared, Unresolved};
-pub use technique::{DebugView, Family, Inside, SettingsOf, Stats, Technique, TechniqueInfo, storage_buffers};
+pub use technique::{DebugView, Family, InOrder, Inside, SettingsOf, Stats, Technique, TechniqueInfo, storage_buffers};
 pub use techniques::{RENAMED, Renamed};
 
 pub use umbrage_core as core;

@@ -8,7 +8,7 @@ use crate::{
     passes::Passes,
     settings::Settings,
     shader::Shader,
-    technique::{DebugView, Inside, Stats, Technique},
+    technique::{DebugView, InOrder, Inside, Stats, Technique},
     view::View,
     visibility::VisibilityTarget,
 };
@@ -93,7 +93,7 @@ impl LightSamples {
 }
 
 impl Technique for LightSamples {
-    fn prepare(&mut self, _: &Gpu, view: &View<'_>) -> Result<(), Error> {
+    fn prepare_view(&mut self, _: &Gpu, view: &View<'_>, _: InOrder) -> Result<(), Error> {
         let shapes = hard_lights(&view.light.shape, view.textures, self.samples as usize);
         self.lights.clear();
         self.lights.extend(shapes.into_iter().map(|shape| Light { shape, ..view.light.clone() }));
@@ -107,14 +107,19 @@ impl Technique for LightSamples {
         Ok(())
     }
 
-    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+    fn record_visibility(
+        &mut self,
+        passes: &mut Passes<'_>,
+        view: &View<'_>,
+        visibility: &VisibilityTarget,
+        _: InOrder,
+    ) -> Result<(), Error> {
         visibility.check(view.receivers)?;
         let (Some(targets), Some((_, mean))) = (&self.targets, &self.mean) else { return Ok(()) };
         let mut stats = Stats::default();
         for (i, light) in self.lights.iter().enumerate() {
             let view = View { light, ..*view };
-            self.inner.prepare(&self.gpu, &view)?;
-            self.inner.record(passes, &view, &targets.one)?;
+            self.inner.prepare(&self.gpu, &view)?.record(passes, &targets.one)?;
             let load = if i == 0 { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
             draw(passes, "add a sample", &self.add, &targets.read_one, &targets.sum.view, load);
             let one = self.inner.inside().stats();

@@ -1,6 +1,6 @@
 //! A technique that notes what reaches it, to test that wrappers pass everything on.
 
-use crate::technique::{DebugView, Inside, Stats, Technique};
+use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
 use crate::{Error, Gpu, Passes, Settings, View, VisibilityTarget, find};
 use std::sync::{Arc, Mutex, PoisonError};
 use umbrage_core::{glam::DMat4, light_view::LightView};
@@ -35,11 +35,17 @@ impl Probe {
 }
 
 impl Technique for Probe {
-    fn prepare(&mut self, _: &Gpu, _: &View<'_>) -> Result<(), Error> {
+    fn prepare_view(&mut self, _: &Gpu, _: &View<'_>, _: InOrder) -> Result<(), Error> {
         Ok(())
     }
 
-    fn record(&mut self, _: &mut Passes<'_>, _: &View<'_>, _: &VisibilityTarget) -> Result<(), Error> {
+    fn record_visibility(
+        &mut self,
+        _: &mut Passes<'_>,
+        _: &View<'_>,
+        _: &VisibilityTarget,
+        _: InOrder,
+    ) -> Result<(), Error> {
         Ok(())
     }
 

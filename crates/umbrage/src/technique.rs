@@ -10,7 +10,9 @@ use umbrage_core::{LightKind, LightKinds, light_view::LightView};
 /// Finds which share of one light each visible point sees; or else what light goes from there to
 /// the eye because of it, see [`Answer`].
 ///
-/// A frame is `prepare`, then `record`; both with the same view.
+/// Whoever uses one calls `prepare` on it, which every `dyn Technique` has, and records what that
+/// returns, a [`Prepared`](crate::Prepared). The methods that take an [`InOrder`] are what a
+/// technique does then: `prepare_view`, and after it with the same view one of the others or none.
 pub trait Technique: Any + wgpu::WasmNotSend {
     /// Everything the CPU does for this frame: fits light views, chooses casters, makes room.
     /// Creates GPU objects only in the first frame and when a size or the kind of light changes.
@@ -18,13 +20,19 @@ pub trait Technique: Any + wgpu::WasmNotSend {
     /// # Errors
     /// [`Error::Unsupported`] for a light or view that the technique can't do, [`Error::Size`]
     /// beyond the limits.
-    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error>;
+    fn prepare_view(&mut self, gpu: &Gpu, view: &View<'_>, order: InOrder) -> Result<(), Error>;
 
     /// Records the passes that leave the light's visibility in `visibility`.
     ///
     /// # Errors
-    /// As [`Technique::prepare`].
-    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error>;
+    /// As [`Technique::prepare_view`].
+    fn record_visibility(
+        &mut self,
+        passes: &mut Passes<'_>,
+        view: &View<'_>,
+        visibility: &VisibilityTarget,
+        order: InOrder,
+    ) -> Result<(), Error>;
 
     /// Takes over settings that differ from its own in [live](Param::live) parameters only, see
     /// [`Settings::differs_live`]. False where it can't: nothing has changed then, and a new
@@ -41,17 +49,18 @@ pub trait Technique: Any + wgpu::WasmNotSend {
         Answer::Visibility
     }
 
-    /// In place of [`Technique::record`] where the [answer](Technique::answer) is radiance: records
-    /// the passes that leave in `radiance` the light that goes from each visible point to the eye.
-    /// Such a technique [refuses](Answer::refuse) `record`.
+    /// In place of [`Technique::record_visibility`] where the [answer](Technique::answer) is
+    /// radiance: records the passes that leave in `radiance` the light that goes from each visible
+    /// point to the eye. Such a technique [refuses](Answer::refuse) the other one.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] where the answer is visibility, and as [`Technique::prepare`].
+    /// [`Error::Unsupported`] where the answer is visibility, and as [`Technique::prepare_view`].
     fn record_radiance(
         &mut self,
         _passes: &mut Passes<'_>,
         _view: &View<'_>,
         _radiance: &RadianceTarget,
+        _order: InOrder,
     ) -> Result<(), Error> {
         self.answer().refuse()
     }
@@ -61,6 +70,17 @@ pub trait Technique: Any + wgpu::WasmNotSend {
 
     /// The same, to change what is measured and looked at.
     fn inside_mut(&mut self) -> &mut dyn Inside;
+}
+
+/// Proof that a technique is called in order. Only the library makes it; a technique that wraps
+/// another one passes it on.
+#[derive(Clone, Copy, Debug)]
+pub struct InOrder(());
+
+impl InOrder {
+    pub(crate) fn new() -> Self {
+        Self(())
+    }
 }
 
 /// What can be measured of a technique and looked at in it. No picture depends on it.

@@ -9,7 +9,7 @@ use crate::{
     passes::Passes,
     receivers::Receivers,
     shader::Shader,
-    technique::{Inside, Stats, Technique},
+    technique::{InOrder, Inside, Stats, Technique},
     techniques::cascaded::Cascaded,
     view::View,
     visibility::VisibilityTarget,
@@ -62,11 +62,17 @@ struct Floor {
 }
 
 impl Technique for Floor {
-    fn prepare(&mut self, _: &Gpu, _: &View<'_>) -> Result<(), Error> {
+    fn prepare_view(&mut self, _: &Gpu, _: &View<'_>, _: InOrder) -> Result<(), Error> {
         Ok(())
     }
 
-    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+    fn record_visibility(
+        &mut self,
+        passes: &mut Passes<'_>,
+        view: &View<'_>,
+        visibility: &VisibilityTarget,
+        _: InOrder,
+    ) -> Result<(), Error> {
         visibility.check(view.receivers)?;
         let mut pass = passes.render("floor", &[visibility.overwrite()], None);
         pass.set_pipeline(&self.pipeline);

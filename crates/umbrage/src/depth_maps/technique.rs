@@ -13,7 +13,7 @@ use crate::{
     passes::Passes,
     settings::Settings,
     shader::Shader,
-    technique::{DebugView, Inside, Stats, Technique},
+    technique::{DebugView, InOrder, Inside, Stats, Technique},
     view::View,
     visibility::VisibilityTarget,
 };
@@ -133,7 +133,7 @@ impl MapTechnique {
 }
 
 impl Technique for MapTechnique {
-    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
+    fn prepare_view(&mut self, gpu: &Gpu, view: &View<'_>, _: InOrder) -> Result<(), Error> {
         self.fit.prepare(view, self.setup.depth == Depth::Linear, &mut self.frame);
         let fitter = self.fitter.as_ref().filter(|_| matches!(self.frame.layers, Layers::Splits(_)));
         self.frame.matrices = fitter.map(|fitter| fitter.matrices().clone());
@@ -148,7 +148,13 @@ impl Technique for MapTechnique {
         Ok(())
     }
 
-    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+    fn record_visibility(
+        &mut self,
+        passes: &mut Passes<'_>,
+        view: &View<'_>,
+        visibility: &VisibilityTarget,
+        _: InOrder,
+    ) -> Result<(), Error> {
         visibility.check(view.receivers)?;
         self.input.upload(passes);
         if let Some(fitter) = self.fitter.as_ref().filter(|_| self.frame.matrices.is_some()) {

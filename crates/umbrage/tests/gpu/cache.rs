@@ -205,8 +205,7 @@ fn a_dropped_encoder_leaves_nothing_behind() {
         let view = View { camera, receivers: &receivers, casters: &casters, light, textures: &[] };
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let mut passes = recorder.begin(&mut encoder);
-        technique.prepare(&gpu, &view).unwrap();
-        technique.record(&mut passes, &view, &target).unwrap();
+        technique.prepare(&gpu, &view).unwrap().record(&mut passes, &target).unwrap();
         passes.finish();
         if submit {
             gpu.queue.submit([encoder.finish()]);

@@ -17,7 +17,7 @@ pub trait Stage: wgpu::WasmNotSend {
     /// With the views and the texture of this frame, before anything is recorded.
     ///
     /// # Errors
-    /// As [`crate::Technique::prepare`].
+    /// As [`crate::Technique::prepare_view`].
     fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, frame: &MapFrame) -> Result<(), Error>;
 
     /// Passes after the maps are drawn, which are in [`MapFrame::texture`]. To draw casters into a

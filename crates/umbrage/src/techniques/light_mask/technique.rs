@@ -2,7 +2,7 @@
 
 use super::mask::Mask;
 use crate::area_light::{Form, casters_in_view, is_on_a_caster};
-use crate::technique::{Inside, Stats, Technique};
+use crate::technique::{InOrder, Inside, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
 use umbrage_core::glam::DVec3;
 
@@ -30,7 +30,7 @@ impl LightMask {
 }
 
 impl Technique for LightMask {
-    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
+    fn prepare_view(&mut self, gpu: &Gpu, view: &View<'_>, _: InOrder) -> Result<(), Error> {
         if view.camera.clip_from_view.row(3).truncate() == DVec3::ZERO {
             let what = "parallel projections of the camera; choose `volume` or a map".into();
             return Err(Error::Unsupported { technique: ID.into(), what });
@@ -50,7 +50,13 @@ impl Technique for LightMask {
         mask.prepare(gpu, view, &form, &self.chosen)
     }
 
-    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+    fn record_visibility(
+        &mut self,
+        passes: &mut Passes<'_>,
+        view: &View<'_>,
+        visibility: &VisibilityTarget,
+        _: InOrder,
+    ) -> Result<(), Error> {
         visibility.check(view.receivers)?;
         self.draws = 0;
         let mask = self.mask.as_mut().filter(|_| !self.chosen.is_empty());

@@ -8,7 +8,7 @@ use super::pictures::{Skinned, pictures};
 use super::point::Point;
 use super::uniform::{LightPoint, PointLookup};
 use crate::depth_maps::RECEIVER_BYTES;
-use crate::technique::{DebugView, Inside, Stats, Technique};
+use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
 use crate::{Error, Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
 use umbrage_core::light_view::LightView;
 use umbrage_core::{Light, LightShape};
@@ -88,7 +88,7 @@ impl LinearLight {
 }
 
 impl Technique for LinearLight {
-    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
+    fn prepare_view(&mut self, gpu: &Gpu, view: &View<'_>, _: InOrder) -> Result<(), Error> {
         let apart_m = points(&view.light.shape, self.settings.samples, &mut self.shapes);
         let setup = self.settings.setup();
         self.points.truncate(self.shapes.len());
@@ -112,7 +112,13 @@ impl Technique for LinearLight {
         Ok(())
     }
 
-    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+    fn record_visibility(
+        &mut self,
+        passes: &mut Passes<'_>,
+        view: &View<'_>,
+        visibility: &VisibilityTarget,
+        _: InOrder,
+    ) -> Result<(), Error> {
         visibility.check(view.receivers)?;
         self.draws = 0;
         for point in &mut self.points {

@@ -6,7 +6,7 @@ use crate::{
     passes::Passes,
     settings,
     settings::Configure,
-    technique::{Family, Inside, SettingsOf, Stats, Technique, TechniqueInfo, storage_buffers},
+    technique::{Family, InOrder, Inside, SettingsOf, Stats, Technique, TechniqueInfo, storage_buffers},
     view::View,
     visibility::VisibilityTarget,
 };
@@ -46,11 +46,17 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
 struct Unshadowed;
 
 impl Technique for Unshadowed {
-    fn prepare(&mut self, _: &Gpu, _: &View<'_>) -> Result<(), Error> {
+    fn prepare_view(&mut self, _: &Gpu, _: &View<'_>, _: InOrder) -> Result<(), Error> {
         Ok(())
     }
 
-    fn record(&mut self, passes: &mut Passes<'_>, _: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+    fn record_visibility(
+        &mut self,
+        passes: &mut Passes<'_>,
+        _: &View<'_>,
+        visibility: &VisibilityTarget,
+        _: InOrder,
+    ) -> Result<(), Error> {
         passes.render("clear", &[visibility.overwrite()], None);
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! A frame: maps, visibility, blur.
 
 use super::blur::ScreenBlur;
-use crate::technique::{DebugView, Inside, Stats, Technique};
+use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, settings::Settings, view::View, visibility::VisibilityTarget};
 use umbrage_core::light_view::LightView;
 
@@ -18,16 +18,22 @@ impl Blurred {
 }
 
 impl Technique for Blurred {
-    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
-        self.source.prepare(gpu, view)?;
+    fn prepare_view(&mut self, gpu: &Gpu, view: &View<'_>, order: InOrder) -> Result<(), Error> {
+        self.source.prepare_view(gpu, view, order)?;
         if let Some(blur) = &mut self.blur {
             blur.prepare(gpu, view);
         }
         Ok(())
     }
 
-    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
-        self.source.record(passes, view, visibility)?;
+    fn record_visibility(
+        &mut self,
+        passes: &mut Passes<'_>,
+        view: &View<'_>,
+        visibility: &VisibilityTarget,
+        order: InOrder,
+    ) -> Result<(), Error> {
+        self.source.record_visibility(passes, view, visibility, order)?;
         if let Some(blur) = &mut self.blur {
             blur.record(passes, view.receivers, visibility);
         }

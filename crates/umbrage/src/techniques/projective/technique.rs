@@ -3,7 +3,7 @@
 use super::draws::{Draws, Normals};
 use super::views::{self, Views};
 use crate::planar::{Chosen, Finder, Shadows, Wanted, nearest_w};
-use crate::technique::{DebugView, Inside, Stats, Technique};
+use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
 use std::ops::Range;
 
@@ -96,7 +96,7 @@ fn apart(rects: &[[u32; 4]]) -> impl Iterator<Item = Range<usize>> + '_ {
 }
 
 impl Technique for Projected {
-    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
+    fn prepare_view(&mut self, gpu: &Gpu, view: &View<'_>, _: InOrder) -> Result<(), Error> {
         self.chosen.update(gpu, view, &self.wanted, |_| 0.0);
         let is_shifted = view.receivers.snapping > LEAST_SHIFT;
         let is_coarse = is_shifted || self.wanted.tolerance > 0.0 || view.camera.background_depth() != 0.0;
@@ -121,7 +121,13 @@ impl Technique for Projected {
         Ok(())
     }
 
-    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+    fn record_visibility(
+        &mut self,
+        passes: &mut Passes<'_>,
+        view: &View<'_>,
+        visibility: &VisibilityTarget,
+        _: InOrder,
+    ) -> Result<(), Error> {
         visibility.check(view.receivers)?;
         self.upload(passes, view);
         if self.is_shadowed {

@@ -4,7 +4,7 @@ use super::draws::{Draws, LIT};
 use super::planes::{Blur, clip_from_eye};
 use crate::fullscreen::attachment;
 use crate::planar::{Chosen, Finder, LitPlane, Shadows, Wanted};
-use crate::technique::{DebugView, Inside, Stats, Technique};
+use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
 
 /// What can be asked for: the textures of the first planes.
@@ -82,7 +82,7 @@ impl Filtered {
 const NEAREST: f64 = 0.5;
 
 impl Technique for Filtered {
-    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
+    fn prepare_view(&mut self, gpu: &Gpu, view: &View<'_>, _: InOrder) -> Result<(), Error> {
         let blur = self.blur;
         self.chosen.update(gpu, view, &self.wanted, |plane| blur.margin(view, plane));
         let planes = self.chosen.planes().len() as u32;
@@ -105,7 +105,13 @@ impl Technique for Filtered {
         Ok(())
     }
 
-    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+    fn record_visibility(
+        &mut self,
+        passes: &mut Passes<'_>,
+        view: &View<'_>,
+        visibility: &VisibilityTarget,
+        _: InOrder,
+    ) -> Result<(), Error> {
         visibility.check(view.receivers)?;
         if self.is_shadowed {
             self.upload(passes, view);

@@ -10,7 +10,7 @@ use super::situation::is_parallel;
 use super::views::{self, Views};
 use crate::casters::Edges;
 use crate::silhouettes::{Part, Silhouettes, Style};
-use crate::technique::{DebugView, Inside, Stats, Technique};
+use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, receivers::Receivers, view::View, visibility::VisibilityTarget};
 use umbrage_core::glam::DVec4;
 
@@ -192,7 +192,7 @@ impl Volume {
 }
 
 impl Technique for Volume {
-    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
+    fn prepare_view(&mut self, gpu: &Gpu, view: &View<'_>, _: InOrder) -> Result<(), Error> {
         let light = self.choose(gpu, view)?;
         let is_lit = self.selection.throws.is_empty();
         if let Some(edges) = view.casters.made_edges().filter(|_| !is_lit) {
@@ -205,7 +205,13 @@ impl Technique for Volume {
         Ok(())
     }
 
-    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+    fn record_visibility(
+        &mut self,
+        passes: &mut Passes<'_>,
+        view: &View<'_>,
+        visibility: &VisibilityTarget,
+        _: InOrder,
+    ) -> Result<(), Error> {
         visibility.check(view.receivers)?;
         self.draws = 0;
         let edges = view.casters.made_edges();

@@ -16,7 +16,7 @@ use crate::area_light::{Face, Form, Frame, ROUNDING, is_on_a_caster};
 use crate::casters::Edges;
 use crate::receivers::Eye;
 use crate::silhouettes::Part;
-use crate::technique::{DebugView, Inside, Stats, Technique};
+use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
 use umbrage_core::glam::DVec3;
 
@@ -224,7 +224,7 @@ fn compared_depth(view: &View<'_>) -> Option<(wgpu::TextureFormat, bool)> {
 }
 
 impl Technique for Wedges {
-    fn prepare(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<(), Error> {
+    fn prepare_view(&mut self, gpu: &Gpu, view: &View<'_>, _: InOrder) -> Result<(), Error> {
         if view.camera.clip_from_view.row(3).truncate() == DVec3::ZERO {
             let what = "parallel projections, since shadows are counted from the eye; choose `volume` or a map".into();
             return Err(Error::Unsupported { technique: ID.into(), what });
@@ -240,7 +240,13 @@ impl Technique for Wedges {
         if self.is_lit() { Ok(()) } else { self.make_ready(gpu, view, &form) }
     }
 
-    fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+    fn record_visibility(
+        &mut self,
+        passes: &mut Passes<'_>,
+        view: &View<'_>,
+        visibility: &VisibilityTarget,
+        _: InOrder,
+    ) -> Result<(), Error> {
         visibility.check(view.receivers)?;
         self.draws = 0;
         let edges = view.casters.made_edges().filter(|_| !self.is_lit());

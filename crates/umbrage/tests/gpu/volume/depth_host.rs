@@ -141,10 +141,10 @@ impl Host {
         self.draw(&mut encoder, scene, camera);
         let light = &scene.lights[0];
         let view = View { camera: self.camera(camera), receivers: &receivers, casters: &casters, light, textures: &[] };
-        technique.prepare(&self.gpu, &view)?;
+        let prepared = technique.prepare(&self.gpu, &view)?;
         let mut recorder = Recorder::new(&self.gpu);
         let mut passes = recorder.begin(&mut encoder);
-        technique.record(&mut passes, &view, &visibility)?;
+        prepared.record(&mut passes, &visibility)?;
         passes.finish();
         self.gpu.queue.submit([encoder.finish()]);
         visibility.read(&self.gpu)

@@ -1,0 +1,67 @@
+//! A frame of a technique as hosts see it: first prepared, then recorded, and held to that order by
+//! its type.
+
+use crate::answer::RadianceTarget;
+use crate::technique::{InOrder, Technique};
+use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+
+impl dyn Technique {
+    /// Does everything that the CPU does for a frame: fits light views, chooses casters, makes
+    /// room. What comes back is to be recorded; until then neither the technique nor anything in
+    /// `view` can change. Several techniques may be prepared before any is recorded.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for a light or view that the technique can't do, [`Error::Size`]
+    /// beyond the limits.
+    pub fn prepare<'t>(&'t mut self, gpu: &Gpu, view: &View<'t>) -> Result<Prepared<'t>, Error> {
+        self.prepare_view(gpu, view, InOrder::new())?;
+        Ok(Prepared { technique: self, view: *view })
+    }
+}
+
+/// A technique that is ready to record the view that it was prepared for, once.
+///
+/// No other order compiles. Nothing is recorded that was not prepared, nothing twice:
+/// ```compile_fail,E0382
+/// # fn f(t: &mut dyn umbrage::Technique, gpu: &umbrage::Gpu, view: &umbrage::View<'_>,
+/// #      passes: &mut umbrage::Passes<'_>, target: &umbrage::VisibilityTarget) -> Result<(), umbrage::Error> {
+/// let prepared = t.prepare(gpu, view)?;
+/// prepared.record(passes, target)?;
+/// prepared.record(passes, target)
+/// # }
+/// ```
+/// and no view takes another one's place:
+/// ```compile_fail,E0499
+/// # fn f(t: &mut dyn umbrage::Technique, gpu: &umbrage::Gpu, [a, b]: [&umbrage::View<'_>; 2],
+/// #      passes: &mut umbrage::Passes<'_>, target: &umbrage::VisibilityTarget) -> Result<(), umbrage::Error> {
+/// let of_a = t.prepare(gpu, a)?;
+/// let of_b = t.prepare(gpu, b)?;
+/// of_a.record(passes, target)?;
+/// of_b.record(passes, target)
+/// # }
+/// ```
+#[must_use = "a technique that was prepared leaves nothing in its target until it is recorded"]
+pub struct Prepared<'t> {
+    technique: &'t mut dyn Technique,
+    view: View<'t>,
+}
+
+impl Prepared<'_> {
+    /// Records the passes that leave the light's visibility in `visibility`.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where the target is not as large as the receivers; [`Error::Unsupported`]
+    /// where the technique [answers](Technique::answer) with radiance.
+    pub fn record(self, passes: &mut Passes<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
+        self.technique.record_visibility(passes, &self.view, visibility, InOrder::new())
+    }
+
+    /// In place of [`Prepared::record`] where the [answer](Technique::answer) is radiance: records
+    /// the passes that leave in `radiance` the light that goes from each visible point to the eye.
+    ///
+    /// # Errors
+    /// As [`Prepared::record`], but where the technique answers with visibility.
+    pub fn record_radiance(self, passes: &mut Passes<'_>, radiance: &RadianceTarget) -> Result<(), Error> {
+        self.technique.record_radiance(passes, &self.view, radiance, InOrder::new())
+    }
+}
