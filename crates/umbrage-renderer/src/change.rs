@@ -16,7 +16,7 @@ impl Renderer {
             return Ok(());
         }
         self.gpu.check_size("the picture", width, height)?;
-        self.targets = Targets::new(&self.gpu, &self.shading, &self.tonemap, size);
+        self.targets = Targets::new(&self.gpu, &self.shading, &self.tonemap, size)?;
         for lit in &mut self.lights {
             lit.target = Target::new(&self.gpu, &self.shading, lit.target.answer(), size)?;
         }

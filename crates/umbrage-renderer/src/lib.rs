@@ -90,7 +90,7 @@ impl Renderer {
             gpu: gpu.clone(),
             casters,
             gbuffer: GBufferPass::new(gpu),
-            targets: Targets::new(gpu, &shading, &tonemap, (width, height)),
+            targets: Targets::new(gpu, &shading, &tonemap, (width, height))?,
             shading,
             tonemap,
             recorder: Recorder::new(gpu),

@@ -2,7 +2,7 @@
 //! anew and nothing else.
 
 use crate::{shading::Shading, tonemap::ToneMap};
-use umbrage::{Gpu, Receivers, fullscreen::target_texture};
+use umbrage::{Error, Gpu, Receivers, fullscreen::target_texture};
 
 /// Packed normals.
 pub(crate) const PACKED: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
@@ -41,21 +41,21 @@ pub(crate) struct GBuffer {
 }
 
 impl Targets {
-    pub fn new(gpu: &Gpu, shading: &Shading, tonemap: &ToneMap, size: (u32, u32)) -> Self {
+    pub fn new(gpu: &Gpu, shading: &Shading, tonemap: &ToneMap, size: (u32, u32)) -> Result<Self, Error> {
         let gbuffer = GBuffer::new(gpu, size);
-        let mut receivers = Receivers::new(gpu, &gbuffer.depth_view, Some(&gbuffer.normal_view), size);
+        let mut receivers = Receivers::new(gpu, &gbuffer.depth_view, Some(&gbuffer.normal_view), size)?;
         if let Some(view) = &gbuffer.stencil_view {
-            receivers = receivers.with_stencil(view);
+            receivers = receivers.with_stencil(view)?;
         }
         let picture = target_texture(gpu, "picture", size, 1, PICTURE);
-        Self {
+        Ok(Self {
             receivers,
             surface: shading.surface(gpu, &gbuffer),
             radiance: tonemap.radiance(gpu, &gbuffer),
             picture_view: picture.create_view(&Default::default()),
             picture,
             gbuffer,
-        }
+        })
     }
 
     /// Pixels across and down.

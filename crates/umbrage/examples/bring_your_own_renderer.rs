@@ -55,7 +55,7 @@ pub fn frames(count: u32) -> Result<umbrage::core::Image<f32>, Box<dyn std::erro
     // umbrage, once.
     let gpu = Gpu::new(device.clone(), queue.clone());
     let mut casters = Casters::new(&gpu, &scene)?;
-    let receivers = Receivers::new(&gpu, &depth, None, SIZE);
+    let receivers = Receivers::new(&gpu, &depth, None, SIZE)?;
     let visibility = VisibilityTarget::new(&gpu, SIZE.0, SIZE.1)?;
     let mut technique = Pcf { kernel: Kernel::Square5, ..Default::default() }.make(&gpu)?;
     let mut recorder = Recorder::new(&gpu);

@@ -69,6 +69,9 @@ pub enum Error {
         /// The largest possible.
         limit: u64,
     },
+    /// A buffer or texture that a host lends is not of the kind that it has to be.
+    #[error("{0}")]
+    Lent(String),
     /// The scene can't be drawn.
     #[error("{0}")]
     Scene(String),

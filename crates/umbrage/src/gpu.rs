@@ -9,7 +9,9 @@ use crate::error::Error;
 use crate::snapping;
 pub use adapter::AdapterSummary;
 pub(crate) use arrival::arrival;
+use std::pin::pin;
 use std::sync::{Arc, Mutex, OnceLock};
+use std::task::{Context, Poll, Waker};
 use wgpu::util::DeviceExt;
 
 /// A device with its queue, cheap to clone.
@@ -148,6 +150,18 @@ impl Gpu {
         match (done, reported) {
             (Ok(_), Some(error)) => Err(Error::Driver(error.to_string()).into()),
             (done, _) => done,
+        }
+    }
+
+    /// Does `work` and gives what the driver rejects in it at once. A browser tells later, and
+    /// reports it in its own way: there, everything passes.
+    pub(crate) fn validated<T>(&self, work: impl FnOnce() -> T) -> Result<T, String> {
+        let scope = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let done = work();
+        let mut report = pin!(scope.pop());
+        match report.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
+            Poll::Ready(Some(error)) => Err(error.to_string()),
+            Poll::Ready(None) | Poll::Pending => Ok(done),
         }
     }
 

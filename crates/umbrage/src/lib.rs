@@ -14,7 +14,7 @@
 //! // Once.
 //! let gpu = umbrage::Gpu::new(device, queue);
 //! let casters = umbrage::Casters::new(&gpu, scene)?;
-//! let receivers = umbrage::Receivers::new(&gpu, depth, None, (1024, 768));
+//! let receivers = umbrage::Receivers::new(&gpu, depth, None, (1024, 768))?;
 //! let visibility = umbrage::VisibilityTarget::new(&gpu, 1024, 768)?;
 //! let mut technique = Pcf { kernel: Kernel::Square7, ..Default::default() }.make(&gpu)?;
 //! let mut recorder = umbrage::Recorder::new(&gpu);

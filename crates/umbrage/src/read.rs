@@ -52,7 +52,7 @@ mod now {
         /// # Errors
         /// [`crate::Error::DeviceLost`] and [`crate::Error::Driver`].
         pub fn read(&self, gpu: &Gpu) -> Result<Image<f32>, Error> {
-            one_channel(gpu, &self.texture, 0)
+            one_channel(gpu, &self.texture, self.layer)
         }
     }
 

@@ -1,7 +1,8 @@
 //! The visibility buffer: the one thing every technique writes.
 
 use crate::fullscreen::{attachment, target_texture};
-use crate::{error::Error, gpu::Gpu, receivers::Receivers};
+use crate::receivers::{Receivers, check_texture};
+use crate::{error::Error, gpu::Gpu};
 
 /// The share of one light that each pixel sees, 0…1, as `R16Float`. PX calls it the LI buffer, SG
 /// the V-buffer.
@@ -9,10 +10,12 @@ use crate::{error::Error, gpu::Gpu, receivers::Receivers};
 pub struct VisibilityTarget {
     /// The texture; sampled by whoever shades, copied by whoever measures.
     pub texture: wgpu::Texture,
-    /// A view of all of it.
+    /// A view of its layer.
     pub view: wgpu::TextureView,
     /// Pixels across and down.
     pub size: (u32, u32),
+    /// Which layer of the texture it is.
+    pub(crate) layer: u32,
 }
 
 impl VisibilityTarget {
@@ -27,7 +30,39 @@ impl VisibilityTarget {
         gpu.check_size("a visibility target", width, height)?;
         let texture = target_texture(gpu, "visibility", (width, height), 1, Self::FORMAT);
         let view = texture.create_view(&Default::default());
-        Ok(Self { texture, view, size: (width, height) })
+        Ok(Self { texture, view, size: (width, height), layer: 0 })
+    }
+
+    /// A layer of a host's texture: `R16Float` with one sample a pixel that can be drawn to and
+    /// read, all of its first level. `Deliver` takes visibility to textures of
+    /// other kinds.
+    ///
+    /// # Errors
+    /// [`Error::Lent`] for a texture of another kind, or one without such a layer.
+    pub fn of_texture(texture: &wgpu::Texture, layer: u32) -> Result<Self, Error> {
+        let size = (texture.width(), texture.height());
+        if texture.format() != Self::FORMAT {
+            let (found, format) = (texture.format(), Self::FORMAT);
+            return Err(Error::Lent(format!(
+                "the visibility target is {found:?}; make it {format:?}, or let `Deliver` copy visibility to it"
+            )));
+        }
+        let needed = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        check_texture("visibility target", texture, size, needed)?;
+        let layers = texture.depth_or_array_layers();
+        if layer >= layers {
+            return Err(Error::Lent(format!(
+                "the visibility target has {layers} layers; number {layer} is none of them"
+            )));
+        }
+        let view = texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            mip_level_count: Some(1),
+            base_array_layer: layer,
+            array_layer_count: Some(1),
+            ..Default::default()
+        });
+        Ok(Self { texture: texture.clone(), view, size, layer })
     }
 
     /// That the target is as large as the receivers.

@@ -1,10 +1,12 @@
 //! What shadows fall on: the depth buffer of the view, and normals where the host has them.
 
+mod check;
 mod eye;
 
 use crate::fullscreen::{self, bind};
-use crate::gpu::Gpu;
 use crate::shader::Shared;
+use crate::{error::Error, gpu::Gpu};
+pub(crate) use check::check_texture;
 pub use eye::Eye;
 
 /// What the host has to agree on with `receivers.wgsl`.
@@ -31,8 +33,21 @@ pub struct Receivers {
 }
 
 impl Receivers {
-    /// Wraps a host's views. `normal` may be `None`.
-    pub fn new(gpu: &Gpu, depth: &wgpu::TextureView, normal: Option<&wgpu::TextureView>, size: (u32, u32)) -> Self {
+    /// Wraps a host's views of `size`, each of one layer and level. `normal` may be `None`.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for a size of 0 or beyond the device's limit, [`Error::Lent`] for a view
+    /// that can't be read so: another format, several samples, an array, both aspects, another
+    /// size, no `TEXTURE_BINDING`.
+    pub fn new(
+        gpu: &Gpu,
+        depth: &wgpu::TextureView,
+        normal: Option<&wgpu::TextureView>,
+        size: (u32, u32),
+    ) -> Result<Self, Error> {
+        gpu.check_size("a depth buffer", size.0, size.1)?;
+        check::depth(depth, size)?;
+        normal.map_or(Ok(()), |view| check::normal(view, size))?;
         let none;
         let normal_view = match normal {
             Some(view) => view,
@@ -42,23 +57,29 @@ impl Receivers {
             }
         };
         let views = [depth, normal_view].map(wgpu::BindingResource::TextureView);
-        let bind_group = bind(gpu, "receivers", &Self::layout(gpu), &views);
-        Self {
+        let layout = Self::layout(gpu);
+        let bind_group = gpu.validated(|| bind(gpu, "receivers", &layout, &views)).map_err(check::rejected)?;
+        Ok(Self {
             size,
             has_normals: normal.is_some(),
             bind_group,
             depth: depth.clone(),
             stencil: None,
             snapping: gpu.snapping(),
-        }
+        })
     }
 
     /// Lends the depth buffer's stencil: `view` is of the same texture with both aspects.
     /// Techniques that count in the stencil then need no copy of the depth; what was in the stencil
     /// is lost.
-    pub fn with_stencil(mut self, view: &wgpu::TextureView) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::Lent`] for a view of another texture, of one without stencil or without
+    /// `RENDER_ATTACHMENT`.
+    pub fn with_stencil(mut self, view: &wgpu::TextureView) -> Result<Self, Error> {
+        check::stencil(view, &self.depth)?;
         self.stencil = Some(view.clone());
-        self
+        Ok(self)
     }
 
     /// Depth and normals, as the module `receivers` declares them in group 0.

@@ -196,7 +196,7 @@ fn a_dropped_encoder_leaves_nothing_behind() {
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
     });
-    let receivers = Receivers::new(&gpu, &depth.create_view(&Default::default()), None, (16, 16));
+    let receivers = Receivers::new(&gpu, &depth.create_view(&Default::default()), None, (16, 16)).unwrap();
     let target = VisibilityTarget::new(&gpu, 16, 16).unwrap();
     let mut recorder = Recorder::new(&gpu);
     let mut frame = |submit: bool| {

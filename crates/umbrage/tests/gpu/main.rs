@@ -10,6 +10,8 @@ mod fragments;
 mod golden;
 mod host;
 mod layouts;
+mod lent;
+
 mod light_mask;
 mod limits;
 mod linear_light;

@@ -129,9 +129,9 @@ impl Host {
     ) -> Result<Image<f32>, Error> {
         let aspect = wgpu::TextureAspect::DepthOnly;
         let depth = self.depth.create_view(&wgpu::TextureViewDescriptor { aspect, ..Default::default() });
-        let mut receivers = Receivers::new(&self.gpu, &depth, None, SIZE);
+        let mut receivers = Receivers::new(&self.gpu, &depth, None, SIZE)?;
         if lends_stencil {
-            receivers = receivers.with_stencil(&self.depth.create_view(&Default::default()));
+            receivers = receivers.with_stencil(&self.depth.create_view(&Default::default()))?;
         }
         let casters = Casters::new(&self.gpu, scene)?;
         let visibility = VisibilityTarget::new(&self.gpu, SIZE.0, SIZE.1)?;
