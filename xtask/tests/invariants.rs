@@ -126,6 +126,19 @@ fn no_technique_imports_another() {
     }
 }
 
+/// What compiles anything does so through the device's store, so that lights of a kind share it.
+#[test]
+fn pipelines_are_made_in_one_place() {
+    let folders = ["crates/umbrage/src", "crates/umbrage-renderer/src", "crates/umbrage-report/src"];
+    for (path, text) in folders.into_iter().flat_map(sources).filter(|(path, _)| !path.ends_with("gpu/shared.rs")) {
+        for what in ["render_pipeline", "compute_pipeline", "shader_module", "layout", "sampler"] {
+            let wrong =
+                ["", "bind_group_", "pipeline_"].iter().any(|of| text.contains(&format!(".create_{of}{what}(")));
+            assert!(!wrong, "{path} makes a {what} of its own; `Gpu` has functions for it");
+        }
+    }
+}
+
 #[test]
 fn every_crate_keeps_the_lints_of_the_workspace() {
     for package in metadata().workspace_packages() {

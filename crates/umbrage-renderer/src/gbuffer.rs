@@ -77,11 +77,8 @@ impl GBufferPass {
 fn pipeline(gpu: &Gpu, view_layout: &wgpu::BindGroupLayout, entry: &str) -> wgpu::RenderPipeline {
     let module = SHADER.module(gpu);
     let [casters, texture] = &SeenCasters::layouts(gpu);
-    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        bind_group_layouts: &[Some(view_layout), Some(casters), Some(texture)],
-        ..Default::default()
-    });
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+    let layout = gpu.pipeline_layout(&[Some(view_layout), Some(casters), Some(texture)]);
+    gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("G-buffer"),
         layout: Some(&layout),
         vertex: wgpu::VertexState {

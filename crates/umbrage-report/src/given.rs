@@ -1,7 +1,10 @@
 //! Visibility that is already known, as a technique: with it the renderer shades the reference.
 
-use umbrage::{Error, Gpu, InOrder, Inside, Passes, Stats, Technique, View, VisibilityTarget};
+use umbrage::{Error, Gpu, InOrder, Inside, Passes, Shader, Stats, Technique, View, VisibilityTarget};
 use umbrage_core::Image;
+
+/// Copies the picture.
+const SHADER: Shader = Shader::new("given visibility", include_str!("given.wgsl"));
 
 /// Writes one picture, whatever the view.
 pub(crate) struct Given {
@@ -14,8 +17,8 @@ impl Given {
     /// Uploads the picture, which has the size of the frames to come.
     pub(crate) fn new(gpu: &Gpu, visibility: &Image<f32>) -> Result<Self, Error> {
         gpu.check_size("a picture of visibility", visibility.width, visibility.height)?;
-        let module = gpu.device.create_shader_module(wgpu::include_wgsl!("given.wgsl"));
-        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        let module = SHADER.module(gpu);
+        let pipeline = gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("given visibility"),
             layout: None,
             vertex: wgpu::VertexState {

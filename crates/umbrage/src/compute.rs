@@ -10,12 +10,9 @@ pub(crate) fn compute_pipeline(
     groups: &[Option<&wgpu::BindGroupLayout>],
     constants: &[(&str, f64)],
 ) -> wgpu::ComputePipeline {
-    let layout = gpu
-        .device
-        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { bind_group_layouts: groups, ..Default::default() });
-    gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+    gpu.compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(entry),
-        layout: Some(&layout),
+        layout: Some(&gpu.pipeline_layout(groups)),
         module,
         entry_point: Some(entry),
         compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },

@@ -31,11 +31,8 @@ impl Fullscreen<'_> {
         depth_stencil: Option<wgpu::DepthStencilState>,
     ) -> wgpu::RenderPipeline {
         let groups: Vec<_> = self.groups.iter().map(|g| Some(*g)).collect();
-        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &groups,
-            ..Default::default()
-        });
-        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        let layout = gpu.pipeline_layout(&groups);
+        gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.label),
             layout: Some(&layout),
             vertex: wgpu::VertexState {
@@ -124,7 +121,7 @@ pub fn layout(
         .zip(bindings)
         .map(|(binding, ty)| wgpu::BindGroupLayoutEntry { binding, visibility, ty: *ty, count: None })
         .collect();
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
+    gpu.bind_group_layout(label, &entries)
 }
 
 /// A bind group of such a layout.

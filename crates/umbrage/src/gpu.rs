@@ -4,17 +4,20 @@ mod adapter;
 mod arrival;
 #[cfg(not(target_family = "wasm"))]
 mod blocking;
+mod shared;
 
 use crate::error::Error;
 use crate::snapping;
 pub use adapter::AdapterSummary;
 pub(crate) use arrival::arrival;
+use shared::Shared;
 use std::pin::pin;
 use std::sync::{Arc, Mutex, OnceLock};
 use std::task::{Context, Poll, Waker};
 use wgpu::util::DeviceExt;
 
-/// A device with its queue, cheap to clone.
+/// A device with its queue, cheap to clone. Clones share what techniques compile; a host makes one
+/// for its device and clones that.
 #[derive(Clone, Debug)]
 pub struct Gpu {
     /// The device.
@@ -24,6 +27,7 @@ pub struct Gpu {
     adapter: AdapterSummary,
     trouble: Arc<Mutex<Option<Error>>>,
     snapping: Arc<OnceLock<f32>>,
+    shared: Arc<Shared>,
 }
 
 impl Gpu {
@@ -75,7 +79,7 @@ impl Gpu {
     /// A host's own device. The host keeps its error and device-lost handlers.
     pub fn new(device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let adapter = AdapterSummary::of_info(&device.adapter_info());
-        Self { device, queue, adapter, trouble: Arc::default(), snapping: Arc::default() }
+        Self { device, queue, adapter, trouble: Arc::default(), snapping: Arc::default(), shared: Arc::default() }
     }
 
     /// The adapter in use.
@@ -148,8 +152,12 @@ impl Gpu {
             reported = scope.pop().await.or(reported);
         }
         match (done, reported) {
-            (Ok(_), Some(error)) => Err(Error::Driver(error.to_string()).into()),
-            (done, _) => done,
+            (done, None) => done,
+            (done, Some(error)) => {
+                // What was made meanwhile may be of no use, and others are not to get it.
+                self.shared.clear();
+                done.and(Err(Error::Driver(error.to_string()).into()))
+            }
         }
     }
 

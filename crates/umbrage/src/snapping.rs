@@ -6,9 +6,12 @@
 //! is off its own plane by more than depths are rounded, and would shadow itself. Where a device
 //! finds depth from corners behind the eye, the shift of those is taken farther.
 
-use crate::{Error, Gpu, read::later};
+use crate::{Error, Gpu, Shader, read::later};
 use umbrage_core::Image;
 use umbrage_core::glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
+
+/// Triangles of known depth.
+const SHADER: Shader = Shader::new("known triangles", include_str!("snapping.wgsl"));
 
 /// Pixels, for a device that can't be measured: four digits, with as much to spare as
 /// [`measured`] leaves.
@@ -147,11 +150,11 @@ fn draw(gpu: &Gpu, triangles: &[Triangle]) -> wgpu::Texture {
 }
 
 fn pipeline(gpu: &Gpu) -> wgpu::RenderPipeline {
-    let module = &gpu.device.create_shader_module(wgpu::include_wgsl!("snapping.wgsl"));
+    let module = &SHADER.module(gpu);
     let attributes = &wgpu::vertex_attr_array![0 => Float32x4];
     let step_mode = wgpu::VertexStepMode::Vertex;
     let buffers = &[Some(wgpu::VertexBufferLayout { array_stride: 16, step_mode, attributes })];
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+    gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("known triangles"),
         layout: None,
         vertex: wgpu::VertexState {

@@ -189,7 +189,7 @@ fn part_layout(gpu: &Gpu, bindings: [u32; 4]) -> wgpu::BindGroupLayout {
         count: None,
     };
     let entries = bindings.map(entry);
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("edges"), entries: &entries })
+    gpu.bind_group_layout("edges", &entries)
 }
 
 fn part(gpu: &Gpu, bindings: [u32; 4], all: &[wgpu::BindingResource<'_>]) -> wgpu::BindGroup {

@@ -56,7 +56,7 @@ fn sampler(gpu: &Gpu, sampling: Sampling) -> wgpu::Sampler {
         Filter::Linear => wgpu::FilterMode::Linear,
         Filter::Nearest => wgpu::FilterMode::Nearest,
     };
-    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+    gpu.sampler(&wgpu::SamplerDescriptor {
         label: Some("base colour"),
         address_mode_u,
         address_mode_v,

@@ -69,12 +69,11 @@ impl Shader {
         Ok(sources.join("\n"))
     }
 
-    /// Compiles it. What can't be resolved is reported as any other error in a shader is.
+    /// Compiles it, once for each device. What can't be resolved is reported as any other error in
+    /// a shader is.
     pub fn module(&self, gpu: &Gpu) -> wgpu::ShaderModule {
-        let text = self.text().unwrap_or_else(|error| format!("const_assert false; // {error}"));
-        gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(self.name),
-            source: wgpu::ShaderSource::Wgsl(text.into()),
+        gpu.shader_module(self.name, (self.source, self.modules), || {
+            self.text().unwrap_or_else(|error| format!("const_assert false; // {error}"))
         })
     }
 }

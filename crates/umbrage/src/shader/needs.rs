@@ -2,7 +2,7 @@
 //! is all of them in order.
 
 /// Plain WGSL that others need by its name.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Module {
     /// What `// needs:` calls it.
     pub name: &'static str,

@@ -26,6 +26,7 @@ mod projective;
 mod rasterisers;
 mod robust;
 mod settings;
+mod shared;
 mod shared_references;
 mod silhouette_map;
 mod smoothies;

@@ -79,7 +79,7 @@ fn written_layout(gpu: &Gpu, binding: u32) -> wgpu::BindGroupLayout {
         count: None,
     };
     let entries = [(0, STORAGE), (binding, WRITTEN)].map(entry);
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("poses"), entries: &entries })
+    gpu.bind_group_layout("poses", &entries)
 }
 
 fn written_group(

@@ -2,7 +2,7 @@
 
 use super::layouts::{view_layout, view_uniform};
 use super::view::MapView;
-use crate::casters::{Casters, DrawList, InstanceNumbers, Surface, texture_layout, vertex_layouts};
+use crate::casters::{CasterDraw, Casters, DrawList, InstanceNumbers, Surface};
 use crate::depth_maps::frame::MapFrame;
 use crate::{gpu::Gpu, passes::Passes, shader::Shader, view::View};
 
@@ -33,35 +33,22 @@ impl CasterPass {
         targets: &[Option<wgpu::ColorTargetState>],
         depth_stencil: Option<wgpu::DepthStencilState>,
     ) -> Self {
-        let (layout, of_casters, of_textures) = (view_layout(gpu), Casters::layout(gpu), texture_layout(gpu));
-        let module = shader.module(gpu);
-        let groups = [Some(&layout), Some(&of_casters), Some(&of_textures)];
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &groups,
-            ..Default::default()
-        });
-        let pipeline = |vertex: &str, fragment: &str| {
-            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(shader.name),
-                layout: Some(&pipeline_layout),
-                vertex: wgpu::VertexState {
-                    module: &module,
-                    entry_point: Some(vertex),
-                    compilation_options: Default::default(),
-                    buffers: &vertex_layouts(vertex == "masked"),
-                },
-                primitive: Default::default(),
+        let (layout, module) = (view_layout(gpu), shader.module(gpu));
+        let pipeline = |vertex, fragment| {
+            CasterDraw {
+                label: shader.name,
+                view: &layout,
+                textured: true,
+                more: None,
+                module: &module,
+                vertex,
+                fragment: Some(fragment),
+                constants: &[],
+                targets,
                 depth_stencil: depth_stencil.clone(),
-                multisample: Default::default(),
-                fragment: Some(wgpu::FragmentState {
-                    module: &module,
-                    entry_point: Some(fragment),
-                    compilation_options: Default::default(),
-                    targets,
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
+                cull_mode: None,
+            }
+            .pipeline(gpu)
         };
         Self {
             pipelines: [pipeline("opaque", fragments[0]), pipeline("masked", fragments[1])],

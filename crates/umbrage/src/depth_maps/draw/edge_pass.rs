@@ -7,6 +7,7 @@ use crate::casters::Casters;
 use crate::depth_maps::frame::MapFrame;
 use crate::depth_maps::layers::Layers;
 use crate::{error::Error, gpu::Gpu, passes::Passes, shader::Shader};
+use std::sync::OnceLock;
 use umbrage_core::glam::DVec4;
 use umbrage_core::light_view::{LightView, Omni};
 
@@ -31,12 +32,14 @@ use umbrage_core::light_view::{LightView, Omni};
 /// - Edges within or behind another caster, and those that are no step of depth, are there, too. A
 ///   fragment shader that has the map of depths tells.
 pub struct EdgePass {
+    gpu: Gpu,
     module: wgpu::ShaderModule,
     draws: Vec<EdgeDraw>,
     constants: Vec<(&'static str, f64)>,
     pipeline_layout: wgpu::PipelineLayout,
-    /// For each kind of layer that came up, one for each of `draws`.
-    pipelines: Vec<(Kind, Vec<wgpu::RenderPipeline>)>,
+    /// For each kind of layer that came up, one for each of `draws`, made when it is first drawn
+    /// by: techniques have ways that only pictures of their inside need.
+    pipelines: Vec<(Kind, Vec<OnceLock<wgpu::RenderPipeline>>)>,
     contour: Contour,
     view_layout: wgpu::BindGroupLayout,
     /// By number of the view in the frame.
@@ -90,12 +93,9 @@ impl EdgePass {
         let contour = Contour::new(gpu);
         let view_layout = view_layout(gpu);
         let groups = [Some(contour.layout()), None, Some(&view_layout), own];
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(shader.name),
-            bind_group_layouts: &groups[..if own.is_some() { 4 } else { 3 }],
-            ..Default::default()
-        });
+        let pipeline_layout = gpu.pipeline_layout(&groups[..if own.is_some() { 4 } else { 3 }]);
         Self {
+            gpu: gpu.clone(),
             module: shader.module(gpu),
             draws,
             constants: constants.to_vec(),
@@ -136,8 +136,7 @@ impl EdgePass {
         let paraboloid = frame.layers == Layers::Omni(Omni::DualParaboloid);
         self.kind = Kind { perspective: frame.is_from_a_point(), paraboloid, linear: frame.is_linear };
         if !self.pipelines.iter().any(|(kind, _)| *kind == self.kind) {
-            let made = self.draws.iter().map(|draw| self.pipeline(gpu, draw)).collect();
-            self.pipelines.push((self.kind, made));
+            self.pipelines.push((self.kind, self.draws.iter().map(|_| OnceLock::new()).collect()));
         }
         self.contour.prepare(gpu, casters, light, seen_by)
     }
@@ -165,10 +164,10 @@ impl EdgePass {
     ) -> u32 {
         let mut pass = passes.render(target.label, target.colors, target.depth);
         let pipelines = self.pipelines.iter().find(|(kind, _)| *kind == self.kind);
-        let pipeline = pipelines.and_then(|(_, pipelines)| pipelines.get(draw));
+        let made = pipelines.and_then(|(_, pipelines)| pipelines.get(draw)).zip(self.draws.get(draw));
         let uniform = self.uniforms.get(i).filter(|_| i < self.views.len());
-        let (Some(pipeline), Some((_, uniform))) = (pipeline, uniform) else { return 0 };
-        pass.set_pipeline(pipeline);
+        let (Some((pipeline, draw)), Some((_, uniform))) = (made, uniform) else { return 0 };
+        pass.set_pipeline(pipeline.get_or_init(|| self.pipeline(draw)));
         pass.set_bind_group(2, uniform, &[]);
         if own.is_some() {
             pass.set_bind_group(3, own, &[]);
@@ -186,13 +185,13 @@ impl EdgePass {
         self.contour.bytes() + self.uniforms.iter().map(|(buffer, _)| buffer.size()).sum::<u64>()
     }
 
-    fn pipeline(&self, gpu: &Gpu, draw: &EdgeDraw) -> wgpu::RenderPipeline {
+    fn pipeline(&self, draw: &EdgeDraw) -> wgpu::RenderPipeline {
         let on = |switch: bool| if switch { 1.0 } else { 0.0 };
         let Kind { perspective, paraboloid, linear } = self.kind;
         let own = [("PERSPECTIVE", on(perspective)), ("PARABOLOID", on(paraboloid)), ("LINEAR", on(linear))];
         let constants = [&self.constants[..], &own].concat();
         let compilation_options = || wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        self.gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(draw.vertex),
             layout: Some(&self.pipeline_layout),
             vertex: wgpu::VertexState {

@@ -4,7 +4,7 @@ use super::cache::Work;
 use super::layer::Layer;
 use super::layouts::Layouts;
 use super::textures::{FORMAT, Textures};
-use crate::casters::{Casters, InstanceNumbers, Surface, texture_layout, vertex_layouts};
+use crate::casters::{CasterDraw, Casters, InstanceNumbers, Surface};
 use crate::shader::Shader;
 use crate::{gpu::Gpu, passes::Passes};
 
@@ -97,38 +97,37 @@ impl Pipelines {
     }
 
     fn make(&self, gpu: &Gpu, kind: Kind) -> Set {
-        let casters = Casters::layout(gpu);
-        let textures = texture_layout(gpu);
-        let pipeline_layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
-            gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                bind_group_layouts: groups,
-                ..Default::default()
-            })
-        };
         let cull_mode = self.cull_mode;
         let constants = [("LINEAR", if kind.linear { 1.0 } else { 0.0 })];
-        let draw = |module: &wgpu::ShaderModule, layout: &wgpu::PipelineLayout, vertex, fragment, cull_mode| {
-            let compare = wgpu::CompareFunction::Greater;
-            // A constant that no entry point uses is none of the module's.
-            let constants = if fragment == Some("cut_out") { &[][..] } else { &constants };
-            pipeline(gpu, &Recipe { layout, module, vertex, fragment, cull_mode, compare, constants })
+        let draw = |module: &wgpu::ShaderModule, vertex: &str, fragment: Option<&str>, more, cull_mode| {
+            CasterDraw {
+                label: fragment.unwrap_or(vertex),
+                view: &self.layouts.view,
+                textured: vertex.starts_with("masked"),
+                more,
+                module,
+                vertex,
+                fragment,
+                // A constant that no entry point uses is none of the module's.
+                constants: if fragment == Some("cut_out") { &[] } else { &constants },
+                targets: &[],
+                depth_stencil: depth_state(wgpu::CompareFunction::Greater),
+                cull_mode,
+            }
+            .pipeline(gpu)
         };
-        let plain = pipeline_layout(&[Some(&self.layouts.view), Some(&casters)]);
-        let textured = pipeline_layout(&[Some(&self.layouts.view), Some(&casters), Some(&textures)]);
         let [opaque, masked] = kind.entries();
         let front = cull_mode.or(Some(wgpu::Face::Back));
         let nearest = [
-            draw(&self.nearest, &plain, opaque.0, opaque.1, front),
-            draw(&self.nearest, &plain, opaque.0, opaque.1, cull_mode),
-            draw(&self.nearest, &textured, masked.0, masked.1, cull_mode),
+            draw(&self.nearest, opaque.0, opaque.1, None, front),
+            draw(&self.nearest, opaque.0, opaque.1, None, cull_mode),
+            draw(&self.nearest, masked.0, masked.1, None, cull_mode),
         ];
-        let second = self.second.as_ref().map(|[second, mean]| {
-            let one_map = Some(&self.layouts.one_map);
-            let all = pipeline_layout(&[Some(&self.layouts.view), Some(&casters), Some(&textures), one_map]);
-            let surface =
-                [opaque, masked].map(|(vertex, _, fragment)| draw(second, &all, vertex, Some(fragment), cull_mode));
-            let midpoint = midpoint_pipeline(gpu, mean, &pipeline_layout(&[Some(&self.layouts.two_maps)]), kind);
-            SecondPipelines { surface, midpoint }
+        let second = self.second.as_ref().map(|[second, mean]| SecondPipelines {
+            surface: [opaque, masked].map(|(vertex, _, fragment)| {
+                draw(second, vertex, Some(fragment), Some(&self.layouts.one_map), cull_mode)
+            }),
+            midpoint: midpoint_pipeline(gpu, mean, &self.layouts.two_maps, kind),
         });
         Set { nearest, second }
     }
@@ -201,63 +200,40 @@ fn attachment(view: &wgpu::TextureView, load: wgpu::LoadOp<f32>) -> Option<wgpu:
 fn midpoint_pipeline(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
-    layout: &wgpu::PipelineLayout,
+    maps: &wgpu::BindGroupLayout,
     kind: Kind,
 ) -> wgpu::RenderPipeline {
     let is_harmonic = kind.perspective && !kind.linear;
-    let recipe = Recipe {
-        layout,
-        module,
-        vertex: "fullscreen",
-        fragment: Some("midpoint"),
-        cull_mode: None,
-        compare: wgpu::CompareFunction::Always,
-        constants: &[("HARMONIC", if is_harmonic { 1.0 } else { 0.0 })],
-    };
-    pipeline(gpu, &recipe)
-}
-
-/// What the pipelines of a map differ in.
-struct Recipe<'a> {
-    layout: &'a wgpu::PipelineLayout,
-    module: &'a wgpu::ShaderModule,
-    vertex: &'a str,
-    fragment: Option<&'a str>,
-    cull_mode: Option<wgpu::Face>,
-    compare: wgpu::CompareFunction,
-    constants: &'a [(&'a str, f64)],
-}
-
-fn pipeline(gpu: &Gpu, recipe: &Recipe<'_>) -> wgpu::RenderPipeline {
-    let buffers = match recipe.vertex {
-        "fullscreen" => Vec::new(),
-        name => vertex_layouts(name.starts_with("masked")),
-    };
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(recipe.fragment.unwrap_or(recipe.vertex)),
-        layout: Some(recipe.layout),
+    let constants = [("HARMONIC", if is_harmonic { 1.0 } else { 0.0 })];
+    gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("midpoint"),
+        layout: Some(&gpu.pipeline_layout(&[Some(maps)])),
         vertex: wgpu::VertexState {
-            module: recipe.module,
-            entry_point: Some(recipe.vertex),
+            module,
+            entry_point: Some("fullscreen"),
             compilation_options: Default::default(),
-            buffers: &buffers,
+            buffers: &[],
         },
-        primitive: wgpu::PrimitiveState { cull_mode: recipe.cull_mode, ..Default::default() },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: FORMAT,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(recipe.compare),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
+        primitive: Default::default(),
+        depth_stencil: depth_state(wgpu::CompareFunction::Always),
         multisample: Default::default(),
-        fragment: recipe.fragment.map(|entry| wgpu::FragmentState {
-            module: recipe.module,
-            entry_point: Some(entry),
-            compilation_options: wgpu::PipelineCompilationOptions { constants: recipe.constants, ..Default::default() },
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some("midpoint"),
+            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
             targets: &[],
         }),
         multiview_mask: None,
         cache: None,
+    })
+}
+
+fn depth_state(compare: wgpu::CompareFunction) -> Option<wgpu::DepthStencilState> {
+    Some(wgpu::DepthStencilState {
+        format: FORMAT,
+        depth_write_enabled: Some(true),
+        depth_compare: Some(compare),
+        stencil: Default::default(),
+        bias: Default::default(),
     })
 }

@@ -67,7 +67,7 @@ impl Lookup {
             pipelines: Vec::new(),
             is_quick: false,
             open: OpenPixels::default(),
-            sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            sampler: gpu.sampler(&wgpu::SamplerDescriptor {
                 label: Some("map compare"),
                 mag_filter: wgpu::FilterMode::Linear,
                 min_filter: wgpu::FilterMode::Linear,

@@ -78,12 +78,9 @@ fn pipeline(
     target: wgpu::ColorTargetState,
 ) -> wgpu::RenderPipeline {
     let module = super::STEP_SKINS.module(gpu);
-    let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        bind_group_layouts: &[Some(source), None, None, Some(into)],
-        ..Default::default()
-    });
+    let pipeline_layout = gpu.pipeline_layout(&[Some(source), None, None, Some(into)]);
     let threshold = [("THRESHOLD", settings.threshold)];
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+    gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("skins"),
         layout: Some(&pipeline_layout),
         vertex: wgpu::VertexState {

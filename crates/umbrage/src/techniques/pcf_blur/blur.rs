@@ -77,7 +77,7 @@ impl ScreenBlur {
             tiles,
             pipelines: Pipelines::new(gpu, &layouts, constants),
             layouts,
-            nearest: gpu.device.create_sampler(&Default::default()),
+            nearest: gpu.sampler(&Default::default()),
             uniform: gpu.buffer("blur", &[Blur::default()], wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST),
             data: Blur::default(),
             targets: None,

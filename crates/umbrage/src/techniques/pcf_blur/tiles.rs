@@ -68,7 +68,7 @@ impl Tiles {
         let constants = [("BLOCK", f64::from(block)), ("DEPTH_AWARE", f64::from(u8::from(depth_aware)))];
         let pipelines = ["find_blocks", "find_tiles", "count_tiles"]
             .map(|entry| compute_pipeline(gpu, &module, entry, &[Some(&layout)], &constants));
-        let nearest = gpu.device.create_sampler(&Default::default());
+        let nearest = gpu.sampler(&Default::default());
         Self { block, layout, nearest, pipelines }
     }
 

@@ -1,7 +1,7 @@
 //! Pipelines and the stencil. The shadows of one plane are marked there with its number, and then
 //! the plane's pixels among them lose their light.
 
-use crate::casters::{Casters, Surface, texture_layout, vertex_layouts};
+use crate::casters::{CasterDraw, Surface};
 use crate::fullscreen::target_texture;
 use crate::planar::{Finder, Shadows};
 use crate::receivers::Receivers;
@@ -45,7 +45,7 @@ impl Draws {
     pub fn new(gpu: &Gpu, finder: &Finder, shadows: &Shadows) -> Self {
         Self {
             resolve_module: RESOLVE_SHADER.module(gpu),
-            resolve_layout: pipeline_layout(gpu, &[&Receivers::layout(gpu), &finder.layout]),
+            resolve_layout: gpu.pipeline_layout(&[Some(&Receivers::layout(gpu)), Some(&finder.layout)]),
             resolve: None,
             cast: cast(gpu, shadows),
             stencil: None,
@@ -99,7 +99,7 @@ impl Draws {
         has_normals: bool,
     ) -> wgpu::RenderPipeline {
         let constants = [("HAS_NORMALS", f64::from(u8::from(has_normals)))];
-        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(fragment),
             layout: Some(&self.resolve_layout),
             vertex: wgpu::VertexState {
@@ -123,12 +123,6 @@ impl Draws {
     }
 }
 
-fn pipeline_layout(gpu: &Gpu, groups: &[&wgpu::BindGroupLayout]) -> wgpu::PipelineLayout {
-    let groups: Vec<_> = groups.iter().map(|group| Some(*group)).collect();
-    gpu.device
-        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { bind_group_layouts: &groups, ..Default::default() })
-}
-
 fn stencil_state((compare, pass_op): (CompareFunction, StencilOperation)) -> Option<wgpu::DepthStencilState> {
     let face = wgpu::StencilFaceState { compare, pass_op, ..wgpu::StencilFaceState::IGNORE };
     // Where nothing is written, drivers test before they shade.
@@ -147,36 +141,26 @@ fn stencil_state((compare, pass_op): (CompareFunction, StencilOperation)) -> Opt
 /// as they are seen from the light.
 fn cast(gpu: &Gpu, shadows: &Shadows) -> [wgpu::RenderPipeline; 3] {
     let module = CAST_SHADER.module(gpu);
-    let casters = Casters::layout(gpu);
-    let plain = pipeline_layout(gpu, &[&shadows.layout, &casters]);
-    let textured = pipeline_layout(gpu, &[&shadows.layout, &casters, &texture_layout(gpu)]);
     let target = wgpu::ColorTargetState { write_mask: wgpu::ColorWrites::empty(), ..VisibilityTarget::FORMAT.into() };
-    let pipeline = |layout: &wgpu::PipelineLayout, vertex: &str, fragment: &str, cull_mode| {
-        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("projected casters"),
-            layout: Some(layout),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some(vertex),
-                compilation_options: Default::default(),
-                buffers: &vertex_layouts(vertex == "masked"),
-            },
-            primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
+    let pipeline = |vertex: &str, fragment, cull_mode| {
+        CasterDraw {
+            label: "projected casters",
+            view: &shadows.layout,
+            textured: vertex == "masked",
+            more: None,
+            module: &module,
+            vertex,
+            fragment: Some(fragment),
+            constants: &[],
+            targets: &[Some(target.clone())],
             depth_stencil: stencil_state((CompareFunction::Always, StencilOperation::Replace)),
-            multisample: Default::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some(fragment),
-                compilation_options: Default::default(),
-                targets: &[Some(target.clone())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
+            cull_mode,
+        }
+        .pipeline(gpu)
     };
     [
-        pipeline(&plain, "opaque", "whole", Some(wgpu::Face::Back)),
-        pipeline(&plain, "opaque", "above", None),
-        pipeline(&textured, "masked", "cut_out", None),
+        pipeline("opaque", "whole", Some(wgpu::Face::Back)),
+        pipeline("opaque", "above", None),
+        pipeline("masked", "cut_out", None),
     ]
 }

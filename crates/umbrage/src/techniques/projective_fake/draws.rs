@@ -1,7 +1,7 @@
 //! Pipelines, and the textures of planes.
 
 use super::planes::Textures;
-use crate::casters::{Casters, Surface, texture_layout, vertex_layouts};
+use crate::casters::{CasterDraw, Surface};
 use crate::fullscreen::{Fullscreen, UNIFORM, bind, layer_view, layout, target_texture};
 use crate::planar::{Finder, Shadows};
 use crate::receivers::Receivers;
@@ -50,7 +50,7 @@ impl Draws {
             cast: cast(gpu, shadows),
             layout: layout(gpu, "textures of planes", wgpu::ShaderStages::FRAGMENT, &[UNIFORM, array, sampler]),
             uniform: gpu.buffer("textures of planes", &[Textures::default()], usage),
-            sampler: gpu.device.create_sampler(&Default::default()),
+            sampler: gpu.sampler(&Default::default()),
             made: None,
         }
     }
@@ -125,44 +125,27 @@ impl Draws {
 /// In the order of [`Surface`]; both faces, since the lowest counts.
 fn cast(gpu: &Gpu, shadows: &Shadows) -> [wgpu::RenderPipeline; 3] {
     let module = CAST_SHADER.module(gpu);
-    let casters = Casters::layout(gpu);
-    let textures = texture_layout(gpu);
-    let pipeline_layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
-        gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: groups,
-            ..Default::default()
-        })
-    };
-    let plain = pipeline_layout(&[Some(&shadows.layout), Some(&casters)]);
-    let textured = pipeline_layout(&[Some(&shadows.layout), Some(&casters), Some(&textures)]);
     let least = wgpu::BlendComponent {
         src_factor: wgpu::BlendFactor::One,
         dst_factor: wgpu::BlendFactor::One,
         operation: wgpu::BlendOperation::Min,
     };
     let blend = Some(wgpu::BlendState { color: least, alpha: least });
-    let pipeline = |layout: &wgpu::PipelineLayout, vertex: &str, fragment: &str| {
-        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("heights of casters"),
-            layout: Some(layout),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some(vertex),
-                compilation_options: Default::default(),
-                buffers: &vertex_layouts(vertex == "masked"),
-            },
-            primitive: Default::default(),
+    let pipeline = |vertex: &str, fragment| {
+        CasterDraw {
+            label: "heights of casters",
+            view: &shadows.layout,
+            textured: vertex == "masked",
+            more: None,
+            module: &module,
+            vertex,
+            fragment: Some(fragment),
+            constants: &[],
+            targets: &[Some(wgpu::ColorTargetState { blend, ..FORMAT.into() })],
             depth_stencil: None,
-            multisample: Default::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some(fragment),
-                compilation_options: Default::default(),
-                targets: &[Some(wgpu::ColorTargetState { blend, ..FORMAT.into() })],
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
+            cull_mode: None,
+        }
+        .pipeline(gpu)
     };
-    [pipeline(&plain, "opaque", "low"), pipeline(&plain, "opaque", "low"), pipeline(&textured, "masked", "low_cut_out")]
+    [pipeline("opaque", "low"), pipeline("opaque", "low"), pipeline("masked", "low_cut_out")]
 }

@@ -6,7 +6,9 @@
 
 mod stage;
 
-use crate::depth_maps::{CONTOUR_SHADER, Cover, EdgePass, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage};
+use crate::depth_maps::{
+    CONTOUR_SHADER, Cover, EdgePass, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage,
+};
 use crate::settings::Configure;
 use crate::shader::{Module, Shader};
 use crate::silhouettes::FIND_SHADER;

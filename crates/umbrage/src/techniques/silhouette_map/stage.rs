@@ -59,7 +59,7 @@ impl SilhouetteStage {
             layout: layout(gpu, "silhouette map", fragment, &[maps, plain]),
             edges: EdgePass::new(gpu, points, Some(&depths), &[], vec![draw]),
             depths,
-            plain: gpu.device.create_sampler(&wgpu::SamplerDescriptor::default()),
+            plain: gpu.sampler(&wgpu::SamplerDescriptor::default()),
             made: None,
         }
     }

@@ -80,10 +80,7 @@ impl DepthCopy {
         let own = layout(gpu, "depth bounds", wgpu::ShaderStages::FRAGMENT, &[UNIFORM]);
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniform = gpu.buffer("depth bounds", &[DepthBounds::default()], usage);
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &[Some(&Receivers::layout(gpu)), Some(&own)],
-            ..Default::default()
-        });
+        let pipeline_layout = gpu.pipeline_layout(&[Some(&Receivers::layout(gpu)), Some(&own)]);
         let bind_group = bind(gpu, "depth bounds", &own, &[uniform.as_entire_binding()]);
         Self { module: DEPTH_SHADER.module(gpu), pipeline_layout, uniform, bind_group, pipelines: Vec::new() }
     }
@@ -92,7 +89,7 @@ impl DepthCopy {
         if self.pipelines.iter().any(|(key, _)| *key == (format, bounded)) {
             return;
         }
-        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        let pipeline = gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("copy depth"),
             layout: Some(&self.pipeline_layout),
             vertex: wgpu::VertexState {

@@ -62,10 +62,7 @@ pub(super) struct Pipelines {
 impl Pipelines {
     /// `silhouettes`: the layout of group 0; `entries`: the vertex shaders of sides and caps.
     pub fn new(gpu: &Gpu, silhouettes: &wgpu::BindGroupLayout, entries: [&'static str; 2]) -> Self {
-        let count_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &[Some(silhouettes), Some(&Edges::draw_layout(gpu))],
-            ..Default::default()
-        });
+        let count_layout = gpu.pipeline_layout(&[Some(silhouettes), Some(&Edges::draw_layout(gpu))]);
         Self {
             count_module: COUNT_SHADER.module(gpu),
             count_layout,
@@ -117,7 +114,7 @@ impl Pipelines {
             },
             targets: &target,
         };
-        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("volumes"),
             layout: Some(&self.count_layout),
             vertex: wgpu::VertexState {
@@ -141,10 +138,7 @@ impl Pipelines {
     fn resolve(&self, gpu: &Gpu, target: TargetKey, parity: bool) -> wgpu::RenderPipeline {
         let is_stencil = target.kind == CounterKind::Stencil;
         let groups = [Some(&self.read_counts)];
-        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &groups[..usize::from(!is_stencil)],
-            ..Default::default()
-        });
+        let layout = gpu.pipeline_layout(&groups[..usize::from(!is_stencil)]);
         let dark = StencilFaceState { compare: CompareFunction::NotEqual, ..StencilFaceState::IGNORE };
         let depth_stencil = is_stencil.then(|| wgpu::DepthStencilState {
             format: target.depth_format,
@@ -158,7 +152,7 @@ impl Pipelines {
         } else {
             ("from_floats", &[("PARITY", f64::from(u8::from(parity)))][..])
         };
-        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("volume visibility"),
             layout: Some(&layout),
             vertex: wgpu::VertexState {

@@ -35,7 +35,7 @@ impl Plan {
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
         let module = PLAN_SHADER.module(gpu);
         let blended = wgpu::ColorTargetState { blend: Some(wgpu::BlendState::ALPHA_BLENDING), ..format.into() };
-        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        let pipeline = gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("plan"),
             layout: None,
             vertex: wgpu::VertexState {

@@ -252,16 +252,14 @@ fn volume_pipeline(
     let module = VIEWS_SHADER.module(gpu);
     let of_edges = Edges::draw_layout(gpu);
     let groups = [Some(silhouettes.layout()), Some(&of_edges)];
-    let layout = gpu
-        .device
-        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { bind_group_layouts: &groups, ..Default::default() });
+    let layout = gpu.pipeline_layout(&groups);
     let options = || wgpu::PipelineCompilationOptions { constants, ..Default::default() };
     let target = match fragment {
         "one" => additive(NUMBERS),
         "tint" => additive(NUMBERS),
         _ => COLOR.into(),
     };
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+    gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("view of volumes"),
         layout: Some(&layout),
         vertex: wgpu::VertexState {

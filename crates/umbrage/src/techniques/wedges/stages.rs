@@ -28,13 +28,10 @@ impl<'a> Stages<'a> {
         target: Option<wgpu::ColorTargetState>,
     ) -> wgpu::RenderPipeline {
         let groups: Vec<_> = groups.iter().map(|g| Some(*g)).collect();
-        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            bind_group_layouts: &groups,
-            ..Default::default()
-        });
+        let layout = gpu.pipeline_layout(&groups);
         let options = |constants| wgpu::PipelineCompilationOptions { constants, ..Default::default() };
         let targets: Vec<_> = target.into_iter().map(Some).collect();
-        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.fragment),
             layout: Some(&layout),
             vertex: wgpu::VertexState {

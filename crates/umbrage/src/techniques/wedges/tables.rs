@@ -228,7 +228,7 @@ fn texture(gpu: &Gpu, size: [u32; 3], format: wgpu::TextureFormat, values: &[f16
 }
 
 fn group(gpu: &Gpu, term: Term, shares: &wgpu::TextureView, sectors: Option<&wgpu::Buffer>) -> wgpu::BindGroup {
-    let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+    let sampler = gpu.sampler(&wgpu::SamplerDescriptor {
         label: Some("shares of a light"),
         mag_filter: wgpu::FilterMode::Linear,
         min_filter: wgpu::FilterMode::Linear,

@@ -210,7 +210,6 @@ impl Views {
         let module = &shader.module(gpu);
         let (of_receivers, of_term) = (Receivers::layout(gpu), key.term.layout(gpu));
         let groups = [Some(&of_receivers), Some(drawn.layout), Some(&of_term)];
-        let groups = wgpu::PipelineLayoutDescriptor { bind_group_layouts: &groups, ..Default::default() };
         let clamps = gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL);
         let face = [("FACE", f64::from(key.face as u32)), ("SPLIT", f64::from(u8::from(key.split)))];
         let constants = match entry {
@@ -220,9 +219,9 @@ impl Views {
         };
         let (is_lines, has_sides) = (entry == "line", matches!(entry, "line" | "tint"));
         let depth = key.depth.and_then(|(format, reversed)| Some((format, self.depth_compare(reversed)?)));
-        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("view of wedges"),
-            layout: Some(&gpu.device.create_pipeline_layout(&groups)),
+            layout: Some(&gpu.pipeline_layout(&groups)),
             vertex: wgpu::VertexState {
                 module,
                 entry_point: Some(vertex),

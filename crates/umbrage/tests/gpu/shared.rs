@@ -1,0 +1,82 @@
+//! What all techniques of a device share: the second light of a kind compiles nothing.
+
+use crate::common::{gpu, pairs, scene};
+use umbrage::core::glam::DVec3;
+use umbrage::core::{LightShape, Scene};
+use umbrage::{Gpu, techniques};
+use umbrage_renderer::{LightPass, Renderer};
+
+/// Objects of the driver that take long to make, as the driver's own layer counts them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Made {
+    pipelines: isize,
+    modules: isize,
+    layouts: isize,
+    samplers: isize,
+}
+
+impl Made {
+    fn on(gpu: &Gpu) -> Self {
+        let counted = gpu.device.get_internal_counters().hal;
+        Self {
+            pipelines: counted.render_pipelines.read() + counted.compute_pipelines.read(),
+            modules: counted.shader_modules.read(),
+            layouts: counted.bind_group_layouts.read() + counted.pipeline_layouts.read(),
+            samplers: counted.samplers.read(),
+        }
+    }
+}
+
+/// Two lights of a kind, the first one again at another place.
+fn two_lights(id: &str) -> Scene {
+    let mut scene = scene(if id == "cascaded" { "city" } else { "contact" }, 0.3);
+    let mut second = scene.lights[0].clone();
+    if let LightShape::Point { position } | LightShape::Sphere { position, .. } = &mut second.shape {
+        *position += DVec3::new(0.2, 0.1, 0.0);
+    }
+    scene.lights = vec![scene.lights[0].clone(), second];
+    scene
+}
+
+#[test]
+fn the_second_light_of_a_kind_compiles_nothing() {
+    let mut wrong = Vec::new();
+    for info in techniques() {
+        let gpu = gpu();
+        let scene = two_lights(info.id);
+        let sized = info.params().iter().any(|param| param.name == "size");
+        let settings = info.settings(&pairs(if sized { "size=64" } else { "" })).unwrap();
+        let pass = |light| LightPass { light, technique: settings.make(&gpu).unwrap() };
+        let mut one = Renderer::new(&gpu, &scene, 48, 36, vec![pass(0)]).unwrap();
+        one.frame(&scene.camera).unwrap();
+        let before = Made::on(&gpu);
+        let mut two = Renderer::new(&gpu, &scene, 48, 36, vec![pass(0), pass(1)]).unwrap();
+        two.frame(&scene.camera).unwrap();
+        let after = Made::on(&gpu);
+        gpu.wait().unwrap();
+        println!("{}: {before:?}", info.id);
+        if before.pipelines == 0 || after != before {
+            wrong.push(format!("{}: {before:?}, then {after:?}", info.id));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A light of 64 points has as many pipelines as one of two.
+#[test]
+fn points_of_a_light_share_their_pipelines() {
+    let made = |samples: u32| {
+        let (gpu, mut scene) = (gpu(), scene("contact", 0.3));
+        scene.lights.truncate(1);
+        scene.lights[0].shape = LightShape::Line { from: DVec3::new(-0.5, 3.0, 0.0), to: DVec3::new(0.5, 3.0, 0.0) };
+        let settings = umbrage::parse(&format!("linear-light:size=16:samples={samples}")).unwrap();
+        let technique = settings.make(&gpu).unwrap();
+        let mut renderer = Renderer::new(&gpu, &scene, 16, 12, vec![LightPass { light: 0, technique }]).unwrap();
+        renderer.frame(&scene.camera).unwrap();
+        gpu.wait().unwrap();
+        Made::on(&gpu)
+    };
+    let (few, many) = (made(3), made(64));
+    assert_eq!(few, many);
+    assert!(few.pipelines > 2, "{few:?}");
+}
