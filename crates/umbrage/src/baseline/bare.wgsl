@@ -1,4 +1,4 @@
-// needs: fullscreen, map_layers
+// needs: fullscreen, receivers, map_layers
 // Project, one compare: a shadow map without any care.
 
 @fragment
@@ -8,7 +8,7 @@ fn visibility(@builtin(position) at: vec4f) -> @location(0) f32 {
     if LAYOUT == CUBE {
         layer = face_of_cube((map.from_light * ndc).xyz);
     }
-    let p = map.layers[layer].map_from_ndc * ndc;
+    let p = map.layers[layer].map_from_place * ndc;
     let stored = textureLoad(map_depth, vec2i(p.xy / p.w), layer, 0);
     return select(0.0, 1.0, p.z / p.w >= stored);
 }

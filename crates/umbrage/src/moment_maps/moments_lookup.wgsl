@@ -76,17 +76,17 @@ fn moments_between(texel: vec2f, layer: u32, level: f32) -> Found {
 
 // Texels of the map that a pixel covers, as the side of a square: from the receiver's plane.
 fn texels_of_pixel(point: MapPoint, pixel: Pixel) -> f32 {
-    let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
     let eye = map.eye.eye_from_ndc;
-    let p = eye * ndc;
-    let normal = vec4f(pixel.surface.normal, -dot(pixel.surface.normal, p.xyz) / p.w);
+    let normal = vec4f(pixel.surface.normal, -dot(pixel.surface.normal, position_of(pixel)));
     // Change of depth along the plane, per step to the right and down.
     let plane = vec3f(dot(normal, eye[0]), dot(normal, eye[1]), dot(normal, eye[2]));
     let change = -plane.xy / plane.z * map.eye.ndc_from_pixel;
-    let to_map = map.layers[point.layer].map_from_ndc;
-    let place = to_map * ndc;
-    let right = texel_step(point.layer, place, to_map[0] * map.eye.ndc_from_pixel.x + to_map[2] * change.x);
-    let down = texel_step(point.layer, place, to_map[1] * map.eye.ndc_from_pixel.y + to_map[2] * change.y);
+    let to_map = map.layers[point.layer].map_from_place;
+    let place = to_map * pixel.place;
+    let step_right = step_of_place(pixel, vec4f(map.eye.ndc_from_pixel.x, 0.0, change.x, 0.0));
+    let step_down = step_of_place(pixel, vec4f(0.0, map.eye.ndc_from_pixel.y, change.y, 0.0));
+    let right = texel_step(point.layer, place, to_map * step_right);
+    let down = texel_step(point.layer, place, to_map * step_down);
     let w = texel_w(place);
     let a = (right.xy - point.texel * right.z) / w;
     let b = (down.xy - point.texel * down.z) / w;

@@ -4,7 +4,7 @@ use crate::{shader::shader_struct, view::View};
 use umbrage_core::glam::DVec4;
 
 shader_struct! {
-    /// How to get from a pixel to the surface it shows, see `receivers.wgsl`.
+    /// How to get from a pixel to the surface it shows, see `eye.wgsl`.
     pub struct Eye {
         /// The camera's normalised device coordinates to space relative to the eye, homogeneous.
         eye_from_ndc: [[f32; 4]; 4],

@@ -9,8 +9,8 @@ use crate::{error::Error, gpu::Gpu};
 pub(crate) use check::check_texture;
 pub use eye::Eye;
 
-/// What the host has to agree on with `receivers.wgsl`.
-pub(crate) const SHARED: Shared = Shared { module: "receivers", layouts: &[Eye::LAYOUT], constants: &[] };
+/// What the host has to agree on with `eye.wgsl`.
+pub(crate) const SHARED: Shared = Shared { module: "eye", layouts: &[Eye::LAYOUT], constants: &[] };
 
 /// Depth (and normals) of the visible surfaces, made once per size.
 ///

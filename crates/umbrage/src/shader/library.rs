@@ -13,13 +13,13 @@ macro_rules! modules {
 
 pub(super) const LIBRARY: &[Module] = modules! {
     "wgsl": fullscreen inspect;
-    "receivers": pack_normal receivers;
+    "receivers": pack_normal eye receivers;
     "casters": instances casters materials edges poses;
     "planar": plane_finder plane_shadow;
     "silhouettes": extrude;
     "area_light": area_light;
     "depth_maps/draw": map_storage map_view map_depth map_paraboloid contour_record map_edges;
-    "depth_maps/lookup": map_layers map_lookup map_visibility map_quick map_picture;
+    "depth_maps/lookup": map_layers map_lookup map_share map_visibility map_quick map_picture;
     "depth_maps/stages": light_kernel map_taps map_cells soft_taps;
     "moment_maps": moments_depth moments_float moments_unorm moments_mean moments_passes moments_share moments_lookup
         moments_soft;

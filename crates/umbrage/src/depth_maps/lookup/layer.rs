@@ -10,7 +10,7 @@ use umbrage_core::light_view::{LightView, Paraboloid};
 shader_struct! {
     /// One view of the light, see `map_layers.wgsl`.
     pub(crate) struct MapLayer {
-        map_from_ndc: [[f32; 4]; 4],
+        map_from_place: [[f32; 4]; 4],
         slope_right: [f32; 3],
         per_metre: f32,
         slope_down: [f32; 3],
@@ -29,25 +29,25 @@ shader_struct! {
 }
 
 impl MapLayer {
-    pub fn of(view: &LightView, world_from_ndc: &DMat4, casters: &[Bounds]) -> Self {
+    pub fn of(view: &LightView, world_from_place: &DMat4, casters: &[Bounds]) -> Self {
         let border = view.steady_border.unwrap_or(0.0) as f32;
-        Self { nearest: nearest(view, casters), border, ..Self::new(view, world_from_ndc) }
+        Self { nearest: nearest(view, casters), border, ..Self::new(view, world_from_place) }
     }
 
-    fn new(view: &LightView, world_from_ndc: &DMat4) -> Self {
+    fn new(view: &LightView, world_from_place: &DMat4) -> Self {
         match &view.paraboloid {
-            Some(paraboloid) => Self::paraboloid(view, paraboloid, world_from_ndc),
-            None => Self::matrix(view, world_from_ndc),
+            Some(paraboloid) => Self::paraboloid(view, paraboloid, world_from_place),
+            None => Self::matrix(view, world_from_place),
         }
     }
 
-    fn matrix(view: &LightView, world_from_ndc: &DMat4) -> Self {
+    fn matrix(view: &LightView, world_from_place: &DMat4) -> Self {
         let map_from_world = texels_from_clip(view.size) * view.clip_from_world;
         let slopes = Slopes::of(&map_from_world, view.is_perspective());
         let axis = if view.is_warped() { warp(&map_from_world) } else { axis(&map_from_world) };
         let row = |i| map_from_world.row(i).truncate().as_vec3().to_array();
         Self {
-            map_from_ndc: matrix(&(map_from_world * world_from_ndc)),
+            map_from_place: matrix(&(map_from_world * world_from_place)),
             slope_right: slopes.right.as_vec3().to_array(),
             slope_down: slopes.down.as_vec3().to_array(),
             slope_axis: slopes.axis.as_vec3().to_array(),
@@ -60,13 +60,13 @@ impl MapLayer {
         }
     }
 
-    fn paraboloid(view: &LightView, paraboloid: &Paraboloid, world_from_ndc: &DMat4) -> Self {
+    fn paraboloid(view: &LightView, paraboloid: &Paraboloid, world_from_place: &DMat4) -> Self {
         let axes = DMat4::from_scale(DVec3::new(1.0, -1.0, 1.0)) * view.clip_from_world;
         let [right, down, ahead] = [0, 1, 3].map(|i| axes.row(i).truncate());
         let InTexels { axis, per_unit } = InTexels::of(view.size, paraboloid);
         let floats = |v: DVec3| v.as_vec3().to_array();
         Self {
-            map_from_ndc: matrix(&(axes * world_from_ndc)),
+            map_from_place: matrix(&(axes * world_from_place)),
             slope_right: floats(right),
             slope_down: floats(down),
             slope_axis: floats(ahead),

@@ -1,10 +1,10 @@
-// needs: receivers, map_storage
+// needs: eye, map_storage
 // The maps of a light: group 1, which layer a receiver is in, and what depth a map holds.
 
 // One view of the light.
 struct MapLayer {
-    // Camera's normalised device coordinates to texels and stored depth, homogeneous.
-    map_from_ndc: mat4x4f,
+    // A receiver's place, see `Pixel`, to texels and stored depth, homogeneous.
+    map_from_place: mat4x4f,
     // What the normal of a plane has to do with the change of its stored depth per texel to the
     // right and down, and what that is to be divided by.
     slope_right: vec3f,
@@ -58,9 +58,11 @@ const MOST_LAYERS: u32 = 9u;
 
 struct MapLookup {
     eye: Eye,
+    // From positions relative to the eye, for `map_inline`.
+    ndc_from_eye: mat4x4f,
     layers: array<MapLayer, MOST_LAYERS>,
-    // Camera's normalised device coordinates to the way from a point light, times w. Chooses the
-    // layer.
+    // A receiver's place to the way from the light's centre, times w; to one towards parallel light.
+    // Chooses the layer.
     from_light: mat4x4f,
     // Rounding of stored depth: relative, and absolute.
     rounding: vec2f,
@@ -79,7 +81,7 @@ struct MapLookup {
     // Offsets tuned by hand: along the light, metres; and the rise over so many texels.
     offsets: vec2f,
     pad: vec2f,
-    // Takes the camera's normalised device coordinates to the distance along the view, times w.
+    // Takes a receiver's place to the distance along the view, times w.
     view_distance: vec4f,
     // Distances at which splits end, and at which blending with the next one begins.
     splits: array<vec4f, 2>,

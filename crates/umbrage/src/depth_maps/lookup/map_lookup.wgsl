@@ -2,11 +2,21 @@
 // Where a receiver lies in the maps of a light, and how the depth there slopes: the one place that
 // bias comes from.
 
-// What a pixel shows.
+// A receiver: what a pixel shows, or whatever a shader of a host's asks about.
 struct Pixel {
+    // The pixel, whose taps differ from those of its neighbours.
     at: vec2f,
-    depth: f32,
+    is_drawn: bool,
+    // Homogeneous, in the space that the light's matrices start from: the camera's normalised device
+    // coordinates, or relative to the eye.
+    place: vec4f,
+    // The last coordinate of the place relative to the eye, homogeneous.
+    w: f32,
     surface: Surface,
+    // Metres that the place may be off in each coordinate, and metres times the length of the normal
+    // that it may be off its surface.
+    rounding: f32,
+    off: f32,
 }
 
 // Interleaved gradient noise (Jimenez 2014), 0 to 1.
@@ -132,7 +142,7 @@ fn texel_change(layer: u32, way: vec3f, unit: vec3f) -> vec3f {
     return change;
 }
 
-// The last coordinate of the homogeneous texel of a place that `map_from_ndc` gave.
+// The last coordinate of the homogeneous texel of a place that `map_from_place` gave.
 fn texel_w(place: vec4f) -> f32 {
     return place.w + select(0.0, length(place.xyw), LAYOUT == PARABOLOIDS);
 }
@@ -151,8 +161,7 @@ fn texel_step(layer: u32, place: vec4f, change: vec4f) -> vec3f {
 // split's end for as long as it covers what is there, and is blended with the next one towards its
 // own border.
 fn split_of(pixel: Pixel, first: MapPoint) -> Split {
-    let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
-    var split = split_at(dot(map.view_distance, ndc) / eye_w(map.eye, ndc));
+    var split = split_at(dot(map.view_distance, pixel.place) / pixel.w);
     if STEADY {
         let layer = min(split.layer, MOST_LAYERS - 1u);
         let finer = max(layer, 1u) - 1u;
@@ -183,14 +192,13 @@ fn steady_share(first: MapPoint, layer: u32) -> f32 {
 
 // The side of a post-perspective cube that covers a pixel, the one with most room around it.
 fn side_of(pixel: Pixel) -> u32 {
-    let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
     var most = -1.0;
     var side = 0u;
     for (var i = 0u; i < 6u; i++) {
-        let p = map.layers[i].map_from_ndc * ndc;
+        let p = map.layers[i].map_from_place * pixel.place;
         let texel = p.xy / p.w;
         let inside = min(texel, map.size - texel);
-        let room = select(-1.0, min(inside.x, inside.y), p.w * eye_w(map.eye, ndc) > 0.0);
+        let room = select(-1.0, min(inside.x, inside.y), p.w * pixel.w > 0.0);
         side = select(side, i, room > most);
         most = max(most, room);
     }
@@ -214,7 +222,7 @@ fn layer_of_pixel(pixel: Pixel, first: MapPoint) -> Split {
     if LAYOUT == SIDES {
         return Split(side_of(pixel), 0.0, true);
     }
-    return Split(layer_of((map.from_light * ndc_of(map.eye, pixel.at, pixel.depth)).xyz), 0.0, true);
+    return Split(layer_of((map.from_light * pixel.place).xyz), 0.0, true);
 }
 
 // For the surface that a pixel shows.
@@ -237,12 +245,11 @@ fn map_point(pixel: Pixel, first: MapPoint, layer: u32) -> MapPoint {
 // By a layer's own matrix; covered by all that is in front of the light.
 fn point_by_matrix(pixel: Pixel, layer: u32) -> MapPoint {
     let surface = pixel.surface;
-    let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
     var point: MapPoint;
     point.layer = layer;
-    let p = map.layers[point.layer].map_from_ndc * ndc;
+    let p = map.layers[point.layer].map_from_place * pixel.place;
     // Parallel light leaves the camera's w as it is.
-    var inverse_w = 1.0 / eye_w(map.eye, ndc);
+    var inverse_w = 1.0 / pixel.w;
     if LAYOUT == PARABOLOIDS {
         let axis = map.layers[point.layer].axis;
         inverse_w = 1.0 / texel_w(p);
@@ -256,13 +263,10 @@ fn point_by_matrix(pixel: Pixel, layer: u32) -> MapPoint {
         point.depth = p.z * inverse_w;
     }
     var is_in_front = true;
-    var eye_inverse_w = inverse_w;
     point.inverse_w = 1.0;
     if PERSPECTIVE || WARPED {
-        let w = eye_w(map.eye, ndc);
-        eye_inverse_w = 1.0 / w;
-        point.inverse_w = inverse_w * w;
-        is_in_front = inverse_w * eye_inverse_w > 0.0;
+        point.inverse_w = inverse_w * pixel.w;
+        is_in_front = point.inverse_w > 0.0;
     }
     let plane = plane_through(point, surface.normal);
     point.along = plane.along;
@@ -271,8 +275,7 @@ fn point_by_matrix(pixel: Pixel, layer: u32) -> MapPoint {
     point.is_covered = is_in_front;
     // Positive where the surface faces the light; 0 where there is no normal or no view.
     point.is_own_shadow = surface.casts && is_in_front && point.across < 0.0;
-    let metres = position_rounding(map.eye, pixel.depth, eye_inverse_w) + map.caster_rounding;
-    point.rounding = depth_rounding(point, metres, off_surface(map.eye, surface.normal, eye_inverse_w));
+    point.rounding = depth_rounding(point, pixel.rounding + map.caster_rounding, pixel.off);
     return point;
 }
 

@@ -10,7 +10,7 @@ fn inspected(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let first = point_by_matrix(pixel, 0u);
     let split = layer_of_pixel(pixel, first);
     let point = map_point(pixel, first, split.layer);
-    if !is_drawn(pixel) || !point.is_covered || !split.is_covered {
+    if !pixel.is_drawn || !point.is_covered || !split.is_covered {
         return vec4f(grey(map.eye, at), 1.0);
     }
     return vec4f(picture(point, pixel, at), 1.0);

@@ -16,6 +16,7 @@ shader_struct! {
     /// See `map_layers.wgsl`.
     pub(crate) struct MapLookup {
         eye: Eye,
+        ndc_from_eye: [[f32; 4]; 4],
         layers: [MapLayer; MOST_LAYERS],
         from_light: [[f32; 4]; 4],
         rounding: [f32; 2],
@@ -42,23 +43,26 @@ pub(in crate::depth_maps) const SHARED: Shared = Shared {
 };
 
 impl MapLookup {
-    /// For the maps of this frame.
-    pub(super) fn new(view: &View<'_>, maps: &MapFrame, bias: Bias) -> Self {
-        let eye_from_ndc = view.clip_from_eye().inverse();
+    /// For the maps of this frame, to look up receivers whose places are in `space`.
+    pub(super) fn new(view: &View<'_>, maps: &MapFrame, bias: Bias, space: Space) -> Self {
+        let ndc_from_eye = view.clip_from_eye();
+        let eye_from_place = match space {
+            Space::Ndc => ndc_from_eye.inverse(),
+            Space::Eye => DMat4::IDENTITY,
+        };
         // A layer that was not rendered sends every point outside of the map, where all is lit.
         let outside = DMat4::from_cols(DVec4::ZERO, DVec4::ZERO, DVec4::ZERO, DVec4::new(-1.0, -1.0, 0.0, 1.0));
-        let mut layers = [MapLayer { map_from_ndc: matrix(&outside), ..MapLayer::default() }; MOST_LAYERS];
-        let world_from_ndc = DMat4::from_translation(view.camera.eye) * eye_from_ndc;
+        let mut layers = [MapLayer { map_from_place: matrix(&outside), ..MapLayer::default() }; MOST_LAYERS];
+        let world_from_place = DMat4::from_translation(view.camera.eye) * eye_from_place;
         for v in &maps.views {
-            layers[v.layer as usize] = MapLayer::of(v, &world_from_ndc, &maps.scene.casters);
+            layers[v.layer as usize] = MapLayer::of(v, &world_from_place, &maps.scene.casters);
         }
         share_first(&maps.views, &mut layers);
-        let center = view.light.shape.center();
-        let from_light = DMat4::from_translation(view.camera.eye * center.w - center.truncate()) * eye_from_ndc;
         Self {
             eye: Eye::new(view),
+            ndc_from_eye: matrix(&ndc_from_eye),
             layers,
-            from_light: matrix(&from_light),
+            from_light: matrix(&(from_light(view) * eye_from_place)),
             size: maps.size as f32,
             rounding: rounding(maps),
             bias: bias.factor() as f32,
@@ -67,14 +71,14 @@ impl MapLookup {
             farthest: FARTHEST as f32,
             softness: maps.softness_m as f32,
             light: LightExtent::of(&view.light.shape),
-            ..Self::splits(view, maps, &eye_from_ndc)
+            ..Self::splits(view, maps, &eye_from_place)
         }
     }
 }
 
 impl MapLookup {
     /// What chooses the split of a pixel.
-    fn splits(view: &View<'_>, maps: &MapFrame, eye_from_ndc: &DMat4) -> Self {
+    fn splits(view: &View<'_>, maps: &MapFrame, eye_from_place: &DMat4) -> Self {
         let [mut splits, mut blends] = [[f32::MAX; MOST_LAYERS - 1]; 2];
         for (i, ends) in
             maps.borders.windows(2).take(maps.borders.len().saturating_sub(2)).enumerate().take(MOST_LAYERS - 1)
@@ -87,10 +91,28 @@ impl MapLookup {
             splits: halves(splits),
             blends: halves(blends),
             last_split: maps.borders.last().map_or(f32::MAX, |last| *last as f32),
-            view_distance: view_distance(view, eye_from_ndc),
+            view_distance: view_distance(view, eye_from_place),
             ..Self::default()
         }
     }
+}
+
+/// Where a receiver's place is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Space {
+    /// In the camera's normalised device coordinates, as full-screen passes have it.
+    Ndc,
+    /// Relative to the eye, as shaders of hosts have it.
+    Eye,
+}
+
+/// Takes what is relative to the eye to the way from the light, times w: from a point's centre,
+/// and along parallel light, which goes the same way everywhere.
+fn from_light(view: &View<'_>) -> DMat4 {
+    let center = view.light.shape.center();
+    let [x, y, z] = [DVec4::X, DVec4::Y, DVec4::Z].map(|axis| axis * center.w);
+    let eye = view.camera.eye * center.w - center.truncate();
+    DMat4::from_cols(x, y, z, eye.extend(1.0))
 }
 
 /// Largest coordinate that the vertex shader computes with, metres: what rounding goes by.

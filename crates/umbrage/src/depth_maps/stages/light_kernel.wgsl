@@ -37,8 +37,7 @@ fn any_perpendicular(v: vec3f) -> vec3f {
 }
 
 fn light_kernel(point: MapPoint, pixel: Pixel) -> LightKernel {
-    let ndc = ndc_of(map.eye, pixel.at, pixel.depth);
-    let way = (map.from_light * ndc).xyz / -eye_w(map.eye, ndc);
+    let way = (map.from_light * pixel.place).xyz / -pixel.w;
     var right = map.light.right;
     var up = map.light.up;
     var normal = map.light.unit_ahead;

@@ -93,12 +93,12 @@ impl SplitFitter {
     pub fn prepare(&mut self, view: &View<'_>, maps: &MapFrame, cascades: &Cascades) {
         let Some(light_view) = maps.views.first() else { return };
         let eye_from_ndc = view.clip_from_eye().inverse();
-        let world_from_ndc = DMat4::from_translation(view.camera.eye) * eye_from_ndc;
+        let world_from_place = DMat4::from_translation(view.camera.eye) * eye_from_ndc;
         let [corners, ways] = corners(view, light_view, &eye_from_ndc);
         self.perspective = light_view.is_perspective();
         self.data = SplitFit {
             eye: Eye::new(view),
-            base: MapLayer::of(light_view, &world_from_ndc, &maps.scene.casters),
+            base: MapLayer::of(light_view, &world_from_place, &maps.scene.casters),
             clip_from_world: matrix(&(light_view.clip_from_world * DMat4::from_translation(view.casters.origin()))),
             corners,
             ways,

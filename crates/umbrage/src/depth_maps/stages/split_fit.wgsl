@@ -1,4 +1,4 @@
-// needs: map_layers
+// needs: receivers, map_layers
 // Fits splits to the depths that are visible: finds their range, and crops one view of the light to
 // each part of it.
 
@@ -109,8 +109,8 @@ fn part_in_view(from_distance: f32, to_distance: f32) -> vec4f {
 fn cropped(scale: vec2f, offset: vec2f) -> MapLayer {
     var layer = fit.base;
     for (var i = 0u; i < 4u; i++) {
-        let column = fit.base.map_from_ndc[i];
-        layer.map_from_ndc[i] = vec4f(column.xy * scale + column.w * offset, column.zw);
+        let column = fit.base.map_from_place[i];
+        layer.map_from_place[i] = vec4f(column.xy * scale + column.w * offset, column.zw);
     }
     layer.slope_right /= scale.x;
     layer.slope_down /= scale.y;

@@ -48,7 +48,7 @@ fn shares_at(point: MapPoint, pixel: Pixel) -> vec2f {
     }
     // The texel may show what is behind the receiver, and its shares are then no concern of it.
     let is_another = is_lit_beyond(point, offset, stored, -THRESHOLD * point.depth);
-    let receiver = position_eye(map.eye, pixel.at, pixel.depth);
+    let receiver = position_of(pixel);
     let above = dot(pixel.surface.normal, lookup.here - receiver);
     let first = select(textureLoad(shares, texel, point.layer, 0).x, NONE, is_another);
     let seen = share_to(0u, first, receiver, pixel.surface, above);
