@@ -72,6 +72,9 @@ pub enum Error {
     /// A buffer or texture that a host lends is not of the kind that it has to be.
     #[error("{0}")]
     Lent(String),
+    /// Look-ups can't be a part of a host's shader as asked.
+    #[error("{0}")]
+    Inline(String),
     /// The scene can't be drawn.
     #[error("{0}")]
     Scene(String),

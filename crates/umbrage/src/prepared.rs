@@ -2,6 +2,7 @@
 //! its type.
 
 use crate::answer::RadianceTarget;
+use crate::inline::Inline;
 use crate::technique::{InOrder, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
 
@@ -16,6 +17,15 @@ impl dyn Technique {
     pub fn prepare<'t>(&'t mut self, gpu: &Gpu, view: &View<'t>) -> Result<Prepared<'t>, Error> {
         self.prepare_view(gpu, view, InOrder::new())?;
         Ok(Prepared { technique: self, view: *view })
+    }
+
+    /// What a shader of the host's own calls to look this light up: see [`Inline`]. To be asked for
+    /// after a frame was [prepared](crate::Prepared), and to [follow](Inline::follow) later ones.
+    ///
+    /// # Errors
+    /// As [`Technique::lend`] and [`Inline::new`].
+    pub fn inline(&mut self, gpu: &Gpu, group: u32, prefix: &str) -> Result<Inline, Error> {
+        Inline::new(gpu, self.lend(gpu)?, group, prefix)
     }
 }
 
@@ -54,6 +64,15 @@ impl Prepared<'_> {
     /// where the technique [answers](Technique::answer) with radiance.
     pub fn record(self, passes: &mut Passes<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
         self.technique.record_visibility(passes, &self.view, visibility, InOrder::new())
+    }
+
+    /// In place of [`Prepared::record`] where shaders of the host's own find the visibility, see
+    /// [`Inline`](crate::Inline): records all that these read, and no full-screen pass.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] where the technique [lends](Technique::lend) nothing.
+    pub fn record_maps(self, passes: &mut Passes<'_>) -> Result<(), Error> {
+        self.technique.record_maps(passes, &self.view, InOrder::new())
     }
 
     /// In place of [`Prepared::record`] where the [answer](Technique::answer) is radiance: records

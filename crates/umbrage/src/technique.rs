@@ -1,8 +1,8 @@
 //! What a technique is.
 
 use crate::{
-    Answer, Error, FilterUse, Gpu, Param, Passes, RadianceTarget, Registry, Settings, Shader, View, VisibilityTarget,
-    settings::Configure,
+    Answer, Error, FilterUse, Gpu, Lent, Param, Passes, RadianceTarget, Registry, Settings, Shader, View,
+    VisibilityTarget, settings::Configure,
 };
 use std::any::Any;
 use umbrage_core::{LightKind, LightKinds, light_view::LightView};
@@ -63,6 +63,26 @@ pub trait Technique: Any + wgpu::WasmNotSend {
         _order: InOrder,
     ) -> Result<(), Error> {
         self.answer().refuse()
+    }
+
+    /// In place of [`Technique::record_visibility`] where shaders of the host's own find the
+    /// visibility: records all that these read.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] where the technique [lends](Technique::lend) nothing.
+    fn record_maps(&mut self, _passes: &mut Passes<'_>, _view: &View<'_>, _order: InOrder) -> Result<(), Error> {
+        Lent::refuse("this technique")
+    }
+
+    /// What shaders of the host's own need to look this light up, see [`Inline`](crate::Inline),
+    /// for the frame that was prepared last. From then on each frame that is recorded keeps what
+    /// they read up to date.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] where the answer is no look-up of maps:
+    /// [`TechniqueInfo::is_lent`] tells before.
+    fn lend(&mut self, _gpu: &Gpu) -> Result<Lent, Error> {
+        Lent::refuse("this technique")
     }
 
     /// What is inside, for those who measure and look.
@@ -225,12 +245,13 @@ pub struct SettingsOf {
     params: fn() -> &'static [Param],
     default: fn() -> Settings,
     answer: Answer,
+    is_lent: bool,
 }
 
 impl SettingsOf {
     /// Those of `T`.
     pub const fn new<T: Configure>() -> Self {
-        Self { params: T::params, default: || T::default().into(), answer: T::ANSWER }
+        Self { params: T::params, default: || T::default().into(), answer: T::ANSWER, is_lent: T::LENT }
     }
 }
 
@@ -249,6 +270,11 @@ impl TechniqueInfo {
     /// What it answers; as [`Technique::answer`] before there is one.
     pub fn answer(&self) -> Answer {
         self.settings.answer
+    }
+
+    /// Whether shaders of a host's own can look its maps up, see [`Technique::lend`].
+    pub fn is_lent(&self) -> bool {
+        self.settings.is_lent
     }
 
     /// Every parameter at its default.

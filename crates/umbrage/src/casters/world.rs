@@ -40,6 +40,8 @@ pub struct Casters {
     pub(super) casting: SceneTree,
     /// Boxes of those that shadows fall on.
     pub(super) receiving: SceneTree,
+    /// Where receivers are that are no instances.
+    pub(super) receiving_in: Vec<Bounds>,
     /// Places of those that do neither.
     pub(super) bystanders: Vec<u32>,
     pub(super) moves: Moves,
@@ -184,6 +186,7 @@ impl Casters {
             place_of,
             casting,
             receiving,
+            receiving_in: Vec::new(),
             bystanders,
             meshes,
             poses,
@@ -286,15 +289,30 @@ impl Casters {
         self.placed.iter().filter(|p| p.casts).map(|p| p.bounds)
     }
 
+    /// Says where shadows are asked for besides on the instances: boxes around particles, panes and
+    /// fog that a shader of the host's own shades, see [`crate::Inline`]. They take the place of
+    /// those given before. Maps cover what the camera sees of them, and then have fewer texels for
+    /// the rest. Boxes that are empty or not finite count for nothing.
+    pub fn receive_in(&mut self, boxes: &[Bounds]) {
+        let is_finite = |b: &&Bounds| b.min.is_finite() && b.max.is_finite() && !b.is_empty();
+        self.receiving_in.clear();
+        self.receiving_in.extend(boxes.iter().filter(is_finite));
+    }
+
+    /// The boxes of [`Casters::receive_in`].
+    pub(crate) fn receiving_in(&self) -> &[Bounds] {
+        &self.receiving_in
+    }
+
     /// A box around everything that shadows fall on.
     pub(crate) fn receivers_bounds(&self) -> Bounds {
-        self.receiving.content()
+        self.receiving_in.iter().fold(self.receiving.content(), |all, one| all.union(*one))
     }
 
     /// A box around everything.
     pub(crate) fn all_bounds(&self) -> Bounds {
         let bystanders = self.bystanders.iter().map(|place| self.placed[*place as usize].bounds);
-        bystanders.fold(self.casting.content().union(self.receiving.content()), Bounds::union)
+        bystanders.fold(self.casting.content().union(self.receivers_bounds()), Bounds::union)
     }
 
     /// The instances that cast shadows, for queries; its numbers are those of [`Casters::placed`].

@@ -65,6 +65,6 @@ impl PointMaps {
     /// All but the number of draws.
     pub fn stats(&self) -> Stats {
         let stats = self.draw.stats(&self.frame);
-        Stats { bytes: stats.bytes + self.input.uniforms().size(), ..stats }
+        Stats { bytes: stats.bytes + self.input.bytes(), ..stats }
     }
 }

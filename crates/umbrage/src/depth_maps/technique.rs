@@ -10,6 +10,7 @@ use super::stages::{SplitFitter, Stage};
 use crate::{
     error::Error,
     gpu::Gpu,
+    inline::Lent,
     passes::Passes,
     settings::Settings,
     shader::Shader,
@@ -69,11 +70,12 @@ impl MapTechnique {
         let classic = ("CLASSIC", f64::from(u8::from(bias.offsets().is_some())));
         let constants = [constants, &[classic]].concat();
         let lookup = Lookup::new(gpu, shader, fit.choice.blend(), &constants, more);
-        let input = LookupInput::new(gpu, bias);
+        let mut input = LookupInput::new(gpu, bias);
+        let fitter = fit.choice.is_fitted_to_depth().then(|| SplitFitter::new(gpu, &mut input));
         Ok(Self {
             setup: *setup,
             frame: MapFrame { size, border_texels: reach_texels + 1.0, ..MapFrame::default() },
-            fitter: fit.choice.is_fitted_to_depth().then(|| SplitFitter::new(gpu, input.uniforms())),
+            fitter,
             draw: Drawer::new(gpu, faces == Faces::Back, faces == Faces::Midpoint, caches(setup, &fit.choice)),
             fit,
             stage,
@@ -98,6 +100,18 @@ impl MapTechnique {
     pub fn in_phases(mut self) -> Self {
         self.lookup.in_phases();
         self
+    }
+
+    /// All of a frame but the look-up.
+    fn draw_maps(&mut self, passes: &mut Passes<'_>, view: &View<'_>) {
+        self.input.upload(passes);
+        if let Some(fitter) = self.fitter.as_ref().filter(|_| self.frame.matrices.is_some()) {
+            fitter.record(passes, view.receivers);
+        }
+        self.draws = self.draw.record(passes, view.casters, &self.frame);
+        if let Some(stage) = &mut self.stage {
+            self.draws += stage.record(passes, &self.frame, view.casters);
+        }
     }
 
     /// With pictures over the scene, see `map_picture.wgsl`, by their names among
@@ -156,18 +170,27 @@ impl Technique for MapTechnique {
         _: InOrder,
     ) -> Result<(), Error> {
         visibility.check(view.receivers)?;
-        self.input.upload(passes);
-        if let Some(fitter) = self.fitter.as_ref().filter(|_| self.frame.matrices.is_some()) {
-            fitter.record(passes, view.receivers);
-        }
-        self.draws = self.draw.record(passes, view.casters, &self.frame);
-        let mut more = None;
-        if let Some(stage) = &mut self.stage {
-            self.draws += stage.record(passes, &self.frame, view.casters);
-            more = stage.bind_group();
-        }
+        self.draw_maps(passes, view);
+        let more = self.stage.as_ref().and_then(|stage| stage.bind_group());
         self.draws += self.lookup.record(passes, view.receivers, &self.input, more, visibility);
         Ok(())
+    }
+
+    fn record_maps(&mut self, passes: &mut Passes<'_>, view: &View<'_>, _: InOrder) -> Result<(), Error> {
+        self.draw_maps(passes, view);
+        Ok(())
+    }
+
+    fn lend(&mut self, gpu: &Gpu) -> Result<Lent, Error> {
+        let bindings = match &self.stage {
+            None => Vec::new(),
+            Some(stage) if stage.bind_group().is_some() => stage.lends().ok_or_else(|| Error::Unsupported {
+                technique: "this technique".into(),
+                what: "shaders of hosts, since its stage lends nothing".into(),
+            })?,
+            Some(_) => Vec::new(),
+        };
+        Ok(self.lookup.lend(gpu, self.frame.texture.as_ref(), &mut self.input, bindings))
     }
 
     fn set(&mut self, gpu: &Gpu, settings: &Settings) -> Result<bool, Error> {
@@ -200,8 +223,7 @@ impl Inside for MapTechnique {
         stats.draws = self.draws;
         stats.triangles += 1;
         stats.bytes += self.fitter.as_ref().map_or(0, SplitFitter::bytes);
-        stats.bytes +=
-            self.lookup.bytes() + self.input.uniforms().size() + self.stage.as_ref().map_or(0, |s| s.bytes());
+        stats.bytes += self.lookup.bytes() + self.input.bytes() + self.stage.as_ref().map_or(0, |s| s.bytes());
         stats
     }
 

@@ -1,5 +1,6 @@
 //! What a technique lends to shaders of a host's own: the look-up of its maps and all that it reads.
 
+use crate::error::Error;
 use crate::shader::Shader;
 
 /// The look-up of one light's maps, as [`crate::Technique::lend`] gives it: what an
@@ -59,6 +60,15 @@ impl Binding {
 }
 
 impl Lent {
+    /// Of what is lit everywhere.
+    pub(crate) const LIT: Self = Self { lookup: None };
+
+    /// What a technique says whose answer is no look-up of maps.
+    pub(crate) fn refuse<T>(technique: &str) -> Result<T, Error> {
+        let what = "shaders of hosts, since its answer is no look-up of maps".into();
+        Err(Error::Unsupported { technique: technique.into(), what })
+    }
+
     /// Whether both need the same WGSL and bind the same kinds of things.
     pub(super) fn is_alike(&self, other: &Self) -> bool {
         match (&self.lookup, &other.lookup) {

@@ -5,9 +5,9 @@ mod lent;
 mod limits;
 mod wgsl;
 
-use crate::{error::Error, gpu::Gpu, technique::Technique};
-pub use lent::{Binding, Lent, Resource};
+use crate::{error::Error, gpu::Gpu};
 pub(crate) use lent::LentLookup;
+pub use lent::{Binding, Lent, Resource};
 use std::fmt::Write;
 
 /// The look-ups of one or several lights for a module of WGSL that is the host's.
@@ -55,17 +55,6 @@ pub enum Followed {
     BindGroup,
     /// Besides, to make pipelines anew, with the new [`Inline::wgsl`] and [`Inline::layout`].
     Shader,
-}
-
-impl dyn Technique {
-    /// What a shader of the host's own calls to look this light up: see [`Inline`]. To be asked for
-    /// after a frame was [prepared](crate::Prepared), and to [follow](Inline::follow) later ones.
-    ///
-    /// # Errors
-    /// As [`Technique::lend`] and [`Inline::new`].
-    pub fn inline(&mut self, gpu: &Gpu, group: u32, prefix: &str) -> Result<Inline, Error> {
-        Inline::new(gpu, self.lend(gpu)?, group, prefix)
-    }
 }
 
 impl Inline {
@@ -196,7 +185,8 @@ const FUNCTIONS: [Function; 3] = [
 
 fn of_light(light: &Lent, group: u32, prefix: &str, first: u32) -> Result<String, Error> {
     let Some(lookup) = &light.lookup else {
-        let lit = |Function(name, typed, _): &Function| format!("fn {prefix}_{name}({typed}) -> f32 {{ return 1.0; }}\n");
+        let lit =
+            |Function(name, typed, _): &Function| format!("fn {prefix}_{name}({typed}) -> f32 {{ return 1.0; }}\n");
         return Ok(FUNCTIONS.iter().map(lit).collect());
     };
     let text = lookup.shader.inline_text().map_err(|error| Error::Inline(error.to_string()))?;

@@ -136,9 +136,8 @@ impl<'a> Place<'a> {
 
     /// The name of a member or an attribute, which is nobody else's.
     fn is_member(&self, tokens: &[&str], i: usize) -> bool {
-        let is_declared = self.in_struct
-            && self.depth == 1
-            && next_of(tokens, i).is_some_and(|(_, token)| token == ":");
+        let is_declared =
+            self.in_struct && self.depth == 1 && next_of(tokens, i).is_some_and(|(_, token)| token == ":");
         self.last == "." || self.last == "@" || is_declared
     }
 }
@@ -188,7 +187,10 @@ mod tests {
 
     fn into_sun(text: &str) -> String {
         let binding = |(group, number): (u32, u32)| group * 10 + number;
-        rewritten(text, &Into { prefix: "sun", constants: &[("A", 2.0), ("B", 1.0), ("C", 0.5)], group: 3, binding: &binding })
+        rewritten(
+            text,
+            &Into { prefix: "sun", constants: &[("A", 2.0), ("B", 1.0), ("C", 0.5)], group: 3, binding: &binding },
+        )
     }
 
     #[test]
@@ -203,7 +205,10 @@ mod tests {
         assert_eq!(into_sun("override A: u32 = 7u;"), "const sun_A: u32 = 2;");
         assert_eq!(into_sun("override B: bool = false;"), "const sun_B: bool = true;");
         assert_eq!(into_sun("override C: f32 = 1.0;"), "const sun_C: f32 = 0.5;");
-        assert_eq!(into_sun("override D: u32 = E;\nconst E: u32 = 4u;"), "const sun_D: u32 = sun_E;\nconst sun_E: u32 = 4u;");
+        assert_eq!(
+            into_sun("override D: u32 = E;\nconst E: u32 = 4u;"),
+            "const sun_D: u32 = sun_E;\nconst sun_E: u32 = 4u;"
+        );
         assert_eq!(
             into_sun("@group(2) @binding(1) var<storage, read> taps: array<f32>;"),
             "@group(3) @binding(21) var<storage, read> sun_taps: array<f32>;"

@@ -13,6 +13,7 @@ mod recipe;
 use crate::casters::Casters;
 use crate::depth_maps::{MapFrame, Stage, TapStage, Taps};
 use crate::fullscreen::{self, UNIFORM, bind, layout};
+use crate::inline::{Binding, Resource};
 use crate::shader::{Shared, shader_struct};
 use crate::{choices, settings};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
@@ -76,6 +77,8 @@ pub(crate) struct MomentStage {
     taps: Option<TapStage>,
     pipelines: Pipelines,
     layout: wgpu::BindGroupLayout,
+    /// Of the moments, in the layout.
+    moments: wgpu::BindingType,
     uniforms: wgpu::Buffer,
     data: Moments,
     made: Option<Made>,
@@ -111,6 +114,7 @@ impl MomentStage {
             coarser,
             taps,
             pipelines: Pipelines::new(gpu, recipe, &blur),
+            moments,
             layout: layout(gpu, "moments", wgpu::ShaderStages::FRAGMENT, &[tables, &[UNIFORM, moments]].concat()),
             uniforms: gpu.buffer("moments", &[Moments::default()], usage),
             data: Moments::default(),
@@ -193,6 +197,15 @@ impl Stage for MomentStage {
 
     fn bind_group(&self) -> Option<&wgpu::BindGroup> {
         self.bind_group.as_ref()
+    }
+
+    fn lends(&self) -> Option<Vec<Binding>> {
+        let mut lent = self.taps.as_ref().map_or_else(Vec::new, TapStage::lends);
+        let first = lent.len() as u32;
+        lent.push(Binding::of_stage(first, UNIFORM, Resource::Buffer(self.uniforms.clone())));
+        let moments = Resource::View(self.made.as_ref()?.moments.clone());
+        lent.push(Binding::of_stage(first + 1, self.moments, moments));
+        Some(lent)
     }
 
     fn bytes(&self) -> u64 {

@@ -24,6 +24,9 @@ pub trait Configure: Group + Clone + Default + Debug + Send + Sync + 'static {
     /// What the technique answers; as its [`Technique::answer`].
     const ANSWER: Answer = Answer::Visibility;
 
+    /// Whether the technique [lends](Technique::lend) its maps to shaders of a host's own.
+    const LENT: bool = false;
+
     /// Makes the technique; values are in range and the device has what [`Configure::INFO`] asks
     /// for.
     ///

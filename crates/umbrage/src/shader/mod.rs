@@ -56,7 +56,7 @@ impl Shader {
     /// # Errors
     /// [`Unresolved`] where there is no such module, or where modules need each other.
     pub fn needs(&self) -> Result<Vec<Module>, Unresolved> {
-        needs::resolve(self.name, self.source, [self.modules, library::LIBRARY])
+        needs::resolve(self.name, self.source, &[self.modules, library::LIBRARY])
     }
 
     /// The whole text.
@@ -67,6 +67,24 @@ impl Shader {
         let needs = self.needs()?;
         let sources: Vec<_> = needs.iter().map(|module| module.source).chain([self.source]).collect();
         Ok(sources.join("\n"))
+    }
+
+    /// The text of a look-up of maps as a part of a host's shader: what stands for the full-screen
+    /// pass comes before the modules of the same names.
+    ///
+    /// # Errors
+    /// As [`Shader::needs`].
+    pub(crate) fn inline_text(&self) -> Result<String, Unresolved> {
+        let needs = needs::resolve(self.name, self.source, &[library::INLINE, self.modules, library::LIBRARY])?;
+        let is_quick = needs.iter().any(|module| module.name == "map_quick");
+        let last = if is_quick { library::INLINE_QUICK } else { library::INLINE_WHOLE };
+        let sources: Vec<_> = needs.iter().map(|module| module.source).chain([self.source, last]).collect();
+        Ok(sources.join("\n"))
+    }
+
+    /// Whether both are the same text.
+    pub(crate) fn is(&self, other: &Self) -> bool {
+        (self.name, self.source) == (other.name, other.source)
     }
 
     /// Compiles it, once for each device. What can't be resolved is reported as any other error in

@@ -37,7 +37,7 @@ fn needs_of(source: &'static str) -> impl Iterator<Item = &'static str> {
 pub(super) fn resolve(
     name: &'static str,
     source: &'static str,
-    known: [&[Module]; 2],
+    known: &[&[Module]],
 ) -> Result<Vec<Module>, Unresolved> {
     let mut search = Search { known, found: Vec::new(), under_way: Vec::new() };
     search.add_needs(Module { name, source })?;
@@ -45,7 +45,7 @@ pub(super) fn resolve(
 }
 
 struct Search<'a> {
-    known: [&'a [Module]; 2],
+    known: &'a [&'a [Module]],
     found: Vec<Module>,
     /// Modules whose needs are being looked for, each needed by the one before.
     under_way: Vec<&'static str>,
@@ -60,7 +60,7 @@ impl Search<'_> {
             if let Some(start) = self.under_way.iter().position(|name| *name == need) {
                 return Err(Unresolved::Cycle(self.under_way[start..].to_vec()));
             }
-            let known = self.known.into_iter().flatten().find(|module| module.name == need);
+            let known = self.known.iter().copied().flatten().find(|module| module.name == need);
             let module = *known.ok_or(Unresolved::Unknown { by: of.name, need })?;
             self.under_way.push(need);
             self.add_needs(module)?;
@@ -81,7 +81,7 @@ mod tests {
     }
 
     fn names(source: &'static str, own: &[Module]) -> Result<Vec<&'static str>, Unresolved> {
-        resolve("test", source, [own, LIBRARY]).map(|found| found.iter().map(|module| module.name).collect())
+        resolve("test", source, &[own, LIBRARY]).map(|found| found.iter().map(|module| module.name).collect())
     }
 
     #[test]

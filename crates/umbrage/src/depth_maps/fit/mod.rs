@@ -70,6 +70,7 @@ impl Fitter {
             Focus::Light => receiving.cut(&EVERYWHERE, MOST_BOXES, receivers),
             Focus::Visible => receiving.cut(&self.choice.seen(view), MOST_BOXES, receivers),
         }
+        receivers.extend(view.casters.receiving_in());
     }
 }
 

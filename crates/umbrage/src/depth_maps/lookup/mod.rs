@@ -2,6 +2,7 @@
 
 mod extent;
 mod layer;
+mod lend;
 mod pass;
 mod phases;
 mod pictures;

@@ -1,9 +1,10 @@
 //! The full-screen pass that compares receivers with the maps.
 
 use super::extent::is_round;
+use super::lend::InEye;
 use super::phases::{OpenPixels, Phase};
 use super::pictures::Pictures;
-use super::uniforms::MapLookup;
+use super::uniforms::{MapLookup, Space};
 use super::variant::Variant;
 use crate::depth_maps::frame::MapFrame;
 use crate::depth_maps::setup::{Bias, Blend};
@@ -20,6 +21,7 @@ use crate::{
 
 /// Pipelines, one for each combination that came up.
 pub(crate) struct Lookup {
+    pub(super) shader: Shader,
     module: wgpu::ShaderModule,
     constants: Vec<(&'static str, f64)>,
     layout: wgpu::BindGroupLayout,
@@ -28,11 +30,11 @@ pub(crate) struct Lookup {
     /// The fragment shader in place of those of the phases.
     entry: Option<&'static str>,
     target: wgpu::ColorTargetState,
-    pipelines: Vec<(Variant, Draws)>,
+    pub(super) pipelines: Vec<(Variant, Draws)>,
     /// The shader has a `quick_share`, see `map_quick.wgsl`.
     is_quick: bool,
     open: OpenPixels,
-    sampler: wgpu::Sampler,
+    pub(super) sampler: wgpu::Sampler,
     pictures: Option<Pictures>,
 }
 
@@ -43,7 +45,9 @@ pub(crate) struct LookupInput {
     data: MapLookup,
     bind_group: Option<(wgpu::Texture, wgpu::BindGroup)>,
     /// Number of the pipelines; `None` where there is nothing to look up.
-    current: Option<usize>,
+    pub(super) current: Option<usize>,
+    /// What shaders of hosts read in place of the uniforms.
+    pub(super) in_eye: InEye,
 }
 
 /// The draws of a look-up, in order.
@@ -58,6 +62,7 @@ impl Lookup {
         more: Option<wgpu::BindGroupLayout>,
     ) -> Self {
         Self {
+            shader: *shader,
             module: shader.module(gpu),
             constants: [constants, &[("BLEND", blend.number())]].concat(),
             layout: lookup_layout(gpu),
@@ -119,8 +124,9 @@ impl Lookup {
     /// Chooses the pipelines of this frame.
     fn choose(&mut self, gpu: &Gpu, view: &View<'_>, maps: &MapFrame, input: &mut LookupInput) {
         input.current = None;
+        input.in_eye.data = MapLookup::new(view, maps, input.bias, Space::Eye);
         let Some(texture) = maps.texture.as_ref().filter(|_| !maps.views.is_empty()) else { return };
-        input.data = MapLookup::new(view, maps, input.bias);
+        input.data = MapLookup::new(view, maps, input.bias, Space::Ndc);
         let perspective = maps.is_from_a_point();
         let linear = maps.is_linear;
         let round = is_round(&view.light.shape);
@@ -207,7 +213,7 @@ impl Lookup {
         [receivers, &self.layout].into_iter().chain(&self.more).collect()
     }
 
-    fn constants_of(&self, variant: Variant) -> Vec<(&'static str, f64)> {
+    pub(super) fn constants_of(&self, variant: Variant) -> Vec<(&'static str, f64)> {
         [&self.constants[..], &variant.constants()].concat()
     }
 
@@ -225,10 +231,7 @@ impl Lookup {
     }
 
     fn bind(&self, gpu: &Gpu, maps: &wgpu::Texture, uniforms: &wgpu::Buffer) -> wgpu::BindGroup {
-        let view = maps.create_view(&wgpu::TextureViewDescriptor {
-            dimension: Some(wgpu::TextureViewDimension::D2Array),
-            ..Default::default()
-        });
+        let view = all_layers(maps);
         let resources = [
             uniforms.as_entire_binding(),
             wgpu::BindingResource::TextureView(&view),
@@ -248,6 +251,7 @@ impl LookupInput {
             data: MapLookup::default(),
             bind_group: None,
             current: None,
+            in_eye: InEye::new(gpu),
         }
     }
 
@@ -264,15 +268,33 @@ impl LookupInput {
     /// Before the look-up is recorded.
     pub fn upload(&self, passes: &mut Passes<'_>) {
         passes.upload(&self.uniforms, bytemuck::bytes_of(&self.data));
+        self.in_eye.upload(passes);
+    }
+
+    /// Bytes of GPU memory.
+    pub fn bytes(&self) -> u64 {
+        self.uniforms.size() + self.in_eye.uniforms.size()
     }
 }
 
-fn lookup_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let maps = wgpu::BindingType::Texture {
+pub(super) fn all_layers(maps: &wgpu::Texture) -> wgpu::TextureView {
+    maps.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    })
+}
+
+/// What `map_layers.wgsl` declares as group 1.
+pub(super) const BINDINGS: [wgpu::BindingType; 3] = [
+    UNIFORM,
+    wgpu::BindingType::Texture {
         sample_type: wgpu::TextureSampleType::Depth,
         view_dimension: wgpu::TextureViewDimension::D2Array,
         multisampled: false,
-    };
-    let compare = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
-    layout(gpu, "map lookup", wgpu::ShaderStages::FRAGMENT, &[UNIFORM, maps, compare])
+    },
+    wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
+];
+
+fn lookup_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    layout(gpu, "map lookup", wgpu::ShaderStages::FRAGMENT, &BINDINGS)
 }

@@ -7,6 +7,7 @@ use super::taps::{Shape, Taps};
 use crate::casters::Casters;
 use crate::depth_maps::frame::MapFrame;
 use crate::fullscreen::{STORAGE, bind, layout};
+use crate::inline::{Binding, Resource};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
 
 /// Taps alone, or with bounds.
@@ -46,6 +47,14 @@ impl TapStage {
         self.taps.prepare(gpu, shape, view.textures) || has_new_bounds
     }
 
+    /// The tables for shaders of hosts.
+    pub(crate) fn lends(&self) -> Vec<Binding> {
+        let bounds = self.bounds.as_ref().and_then(BoundsPyramid::buffer);
+        let buffers = self.taps.buffer().into_iter().chain(bounds);
+        let lent = (0..).zip(Self::LIGHT_BINDINGS).zip(buffers);
+        lent.map(|((i, ty), buffer)| Binding::of_stage(i, ty, Resource::Buffer(buffer.clone()))).collect()
+    }
+
     /// The tables, in the order of the layout.
     pub(crate) fn resources(&self) -> Vec<wgpu::BindingResource<'_>> {
         let bounds = self.bounds.as_ref().and_then(BoundsPyramid::buffer);
@@ -74,6 +83,10 @@ impl Stage for TapStage {
 
     fn bind_group(&self) -> Option<&wgpu::BindGroup> {
         self.bind_group.as_ref()
+    }
+
+    fn lends(&self) -> Option<Vec<Binding>> {
+        Some(TapStage::lends(self))
     }
 
     fn bytes(&self) -> u64 {

@@ -7,7 +7,7 @@
 use crate::compute::compute_pipeline;
 use crate::depth_maps::frame::MapFrame;
 use crate::depth_maps::layers::MOST_LAYERS;
-use crate::depth_maps::lookup::MapLayer;
+use crate::depth_maps::lookup::{LookupInput, MapLayer};
 use crate::depth_maps::texels::{matrix, texels_from_clip, texels_in_plane, view_distance};
 use crate::fullscreen::{STORAGE_WRITE, UNIFORM, bind, layout};
 use crate::shader::{Shader, shader_struct};
@@ -53,18 +53,24 @@ pub(in crate::depth_maps) struct SplitFitter {
     find_range: wgpu::ComputePipeline,
     /// For views that are parallel, and for those from a point.
     fit_splits: [wgpu::ComputePipeline; 2],
-    data: SplitFit,
     perspective: bool,
-    uniform: wgpu::Buffer,
+    targets: [Target; 2],
     range: wgpu::Buffer,
     /// A matrix for each layer, from the casters' space to clip space.
     matrices: wgpu::Buffer,
+}
+
+/// Uniforms of a look-up that are patched: those of the full-screen pass, and those of shaders of
+/// hosts, whose receivers are in another space.
+struct Target {
+    data: SplitFit,
+    uniform: wgpu::Buffer,
     bind_group: wgpu::BindGroup,
 }
 
 impl SplitFitter {
-    /// `lookup` are the uniforms of the look-up, which it patches.
-    pub fn new(gpu: &Gpu, lookup: &wgpu::Buffer) -> Self {
+    /// `input` has the uniforms of the look-up, which it patches.
+    pub fn new(gpu: &Gpu, input: &mut LookupInput) -> Self {
         let bindings = [UNIFORM, STORAGE_WRITE, STORAGE_WRITE, STORAGE_WRITE];
         let layout = layout(gpu, "split fit", wgpu::ShaderStages::COMPUTE, &bindings);
         let module = SPLIT_FIT_SHADER.module(gpu);
@@ -73,17 +79,20 @@ impl SplitFitter {
         let pipeline =
             |entry, perspective: f64| compute_pipeline(gpu, &module, entry, &groups, &[("PERSPECTIVE", perspective)]);
         use wgpu::BufferUsages as Usage;
-        let uniform = gpu.buffer("split fit", &[SplitFit::default()], Usage::UNIFORM | Usage::COPY_DST);
         let range = gpu.buffer("visible range", &[0u32; 2], Usage::STORAGE | Usage::COPY_DST);
         let matrices = gpu.buffer("split views", &[[0f32; 16]; MOST_LAYERS], Usage::STORAGE | Usage::COPY_SRC);
-        let buffers = [&uniform, &range, lookup, &matrices].map(wgpu::Buffer::as_entire_binding);
+        let target = |lookup: &wgpu::Buffer| {
+            let uniform = gpu.buffer("split fit", &[SplitFit::default()], Usage::UNIFORM | Usage::COPY_DST);
+            let buffers = [&uniform, &range, lookup, &matrices].map(wgpu::Buffer::as_entire_binding);
+            let bind_group = bind(gpu, "split fit", &layout, &buffers);
+            Target { data: SplitFit::default(), uniform, bind_group }
+        };
+        let targets = [target(input.uniforms()), target(input.keep_lent())];
         Self {
             find_range: pipeline("find_range", 0.0),
             fit_splits: [0.0, 1.0].map(|perspective| pipeline("fit_splits", perspective)),
-            data: SplitFit::default(),
             perspective: false,
-            bind_group: bind(gpu, "split fit", &layout, &buffers),
-            uniform,
+            targets,
             range,
             matrices,
         }
@@ -93,12 +102,13 @@ impl SplitFitter {
     pub fn prepare(&mut self, view: &View<'_>, maps: &MapFrame, cascades: &Cascades) {
         let Some(light_view) = maps.views.first() else { return };
         let eye_from_ndc = view.clip_from_eye().inverse();
-        let world_from_place = DMat4::from_translation(view.camera.eye) * eye_from_ndc;
         let [corners, ways] = corners(view, light_view, &eye_from_ndc);
         self.perspective = light_view.is_perspective();
-        self.data = SplitFit {
+        let world_from_eye = DMat4::from_translation(view.camera.eye);
+        let base = |world_from_place: &DMat4| MapLayer::of(light_view, world_from_place, &maps.scene.casters);
+        let in_ndc = SplitFit {
             eye: Eye::new(view),
-            base: MapLayer::of(light_view, &world_from_place, &maps.scene.casters),
+            base: base(&(world_from_eye * eye_from_ndc)),
             clip_from_world: matrix(&(light_view.clip_from_world * DMat4::from_translation(view.casters.origin()))),
             corners,
             ways,
@@ -112,19 +122,24 @@ impl SplitFitter {
             distance: if cascades.distance > 0.0 { cascades.distance as f32 } else { f32::MAX },
             pad: 0.0,
         };
+        self.targets[0].data = in_ndc;
+        self.targets[1].data = SplitFit { base: base(&world_from_eye), ..in_ndc };
     }
 
     /// Patches the look-up's uniforms, after these were uploaded.
     pub fn record(&self, passes: &mut Passes<'_>, receivers: &Receivers) {
-        passes.upload(&self.uniform, bytemuck::bytes_of(&self.data));
+        self.targets.iter().for_each(|t| passes.upload(&t.uniform, bytemuck::bytes_of(&t.data)));
         passes.upload(&self.range, bytemuck::bytes_of(&[u32::MAX, 0]));
         let mut pass = passes.compute("split fit");
         pass.set_bind_group(0, &receivers.bind_group, &[]);
-        pass.set_bind_group(2, &self.bind_group, &[]);
+        pass.set_bind_group(2, &self.targets[0].bind_group, &[]);
         pass.set_pipeline(&self.find_range);
         pass.dispatch_workgroups(receivers.size.0.div_ceil(PIXELS), receivers.size.1.div_ceil(PIXELS), 1);
         pass.set_pipeline(&self.fit_splits[usize::from(self.perspective)]);
-        pass.dispatch_workgroups(1, 1, 1);
+        for target in &self.targets {
+            pass.set_bind_group(2, &target.bind_group, &[]);
+            pass.dispatch_workgroups(1, 1, 1);
+        }
     }
 
     /// A matrix for each layer, from the casters' space to clip space.
@@ -133,7 +148,7 @@ impl SplitFitter {
     }
 
     pub fn bytes(&self) -> u64 {
-        self.uniform.size() + self.range.size() + self.matrices.size()
+        self.targets.iter().map(|t| t.uniform.size()).sum::<u64>() + self.range.size() + self.matrices.size()
     }
 }
 

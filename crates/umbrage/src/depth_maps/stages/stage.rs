@@ -2,6 +2,7 @@
 
 use crate::casters::Casters;
 use crate::depth_maps::frame::MapFrame;
+use crate::inline::Binding;
 use crate::{error::Error, gpu::Gpu, passes::Passes, technique::DebugView, view::View};
 
 /// Passes over a light's maps or over its casters, and what the look-up binds besides the maps.
@@ -29,6 +30,13 @@ pub trait Stage: wgpu::WasmNotSend {
 
     /// `None` only where there is nothing to look up.
     fn bind_group(&self) -> Option<&wgpu::BindGroup>;
+
+    /// What is in the bind group, for [look-ups in shaders of hosts](crate::Inline), once there is
+    /// something to look up. `None` where the stage has no use for them: the technique then refuses
+    /// to lend its maps.
+    fn lends(&self) -> Option<Vec<Binding>> {
+        None
+    }
 
     /// Bytes of GPU memory held.
     fn bytes(&self) -> u64;

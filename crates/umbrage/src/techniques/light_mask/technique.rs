@@ -3,7 +3,7 @@
 use super::mask::Mask;
 use crate::area_light::{Form, casters_in_view, is_on_a_caster};
 use crate::technique::{InOrder, Inside, Stats, Technique};
-use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+use crate::{error::Error, gpu::Gpu, inline::Lent, passes::Passes, view::View, visibility::VisibilityTarget};
 use umbrage_core::glam::DVec3;
 
 /// What users type.
@@ -67,6 +67,10 @@ impl Technique for LightMask {
             drop(passes.render("visibility", &[visibility.overwrite()], None));
         }
         Ok(())
+    }
+
+    fn lend(&mut self, _: &Gpu) -> Result<Lent, Error> {
+        Lent::refuse("light-mask")
     }
 
     fn inside(&self) -> &dyn Inside {

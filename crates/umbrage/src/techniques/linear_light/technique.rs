@@ -9,7 +9,7 @@ use super::point::Point;
 use super::uniform::{LightPoint, PointLookup};
 use crate::depth_maps::RECEIVER_BYTES;
 use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
-use crate::{Error, Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+use crate::{Error, Gpu, Lent, passes::Passes, view::View, visibility::VisibilityTarget};
 use umbrage_core::light_view::LightView;
 use umbrage_core::{Light, LightShape};
 
@@ -129,6 +129,10 @@ impl Technique for LinearLight {
         self.draws += self.record_shares(passes, view);
         self.draws += self.pipelines.record(passes, view.receivers, &self.points, visibility);
         Ok(())
+    }
+
+    fn lend(&mut self, _: &Gpu) -> Result<Lent, Error> {
+        Lent::refuse("linear-light")
     }
 
     fn inside(&self) -> &dyn Inside {

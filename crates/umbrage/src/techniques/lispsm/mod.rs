@@ -44,6 +44,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
 
 impl Configure for Lispsm {
     const INFO: &'static TechniqueInfo = &INFO;
+    const LENT: bool = true;
 
     fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
         self.filter.make_on(gpu, &self.setup())

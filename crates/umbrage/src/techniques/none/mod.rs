@@ -3,6 +3,7 @@
 use crate::{
     error::Error,
     gpu::Gpu,
+    inline::Lent,
     passes::Passes,
     settings,
     settings::Configure,
@@ -19,6 +20,7 @@ settings! {
 
 impl Configure for NoShadow {
     const INFO: &'static TechniqueInfo = &INFO;
+    const LENT: bool = true;
 
     fn build(&self, _: &Gpu) -> Result<Box<dyn Technique>, Error> {
         Ok(Box::new(Unshadowed))
@@ -59,6 +61,14 @@ impl Technique for Unshadowed {
     ) -> Result<(), Error> {
         passes.render("clear", &[visibility.overwrite()], None);
         Ok(())
+    }
+
+    fn record_maps(&mut self, _: &mut Passes<'_>, _: &View<'_>, _: InOrder) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn lend(&mut self, _: &Gpu) -> Result<Lent, Error> {
+        Ok(Lent::LIT)
     }
 
     fn inside(&self) -> &dyn Inside {

@@ -2,7 +2,7 @@
 
 use super::blur::ScreenBlur;
 use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
-use crate::{error::Error, gpu::Gpu, passes::Passes, settings::Settings, view::View, visibility::VisibilityTarget};
+use crate::{error::Error, gpu::Gpu, inline::Lent, passes::Passes, settings::Settings, view::View, visibility::VisibilityTarget};
 use umbrage_core::light_view::LightView;
 
 pub(super) struct Blurred {
@@ -42,6 +42,10 @@ impl Technique for Blurred {
 
     fn set(&mut self, gpu: &Gpu, settings: &Settings) -> Result<bool, Error> {
         self.source.set(gpu, settings)
+    }
+
+    fn lend(&mut self, _: &Gpu) -> Result<Lent, Error> {
+        Lent::refuse("pcf-blur")
     }
 
     fn inside(&self) -> &dyn Inside {

@@ -49,6 +49,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
 
 impl Configure for Pcss {
     const INFO: &'static TechniqueInfo = &INFO;
+    const LENT: bool = true;
 
     fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
         self.make_on(gpu, &self.map.covering(&self.cover, self.storage.depth))

@@ -4,7 +4,7 @@ use super::draws::{Draws, Normals};
 use super::views::{self, Views};
 use crate::planar::{Chosen, Finder, Shadows, Wanted, nearest_w};
 use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
-use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+use crate::{error::Error, gpu::Gpu, inline::Lent, passes::Passes, view::View, visibility::VisibilityTarget};
 use std::ops::Range;
 
 /// See the module of the technique.
@@ -139,6 +139,10 @@ impl Technique for Projected {
             views.record(&self.gpu, passes, view.receivers, &self.finder, visibility);
         }
         Ok(())
+    }
+
+    fn lend(&mut self, _: &Gpu) -> Result<Lent, Error> {
+        Lent::refuse("projective")
     }
 
     fn inside(&self) -> &dyn Inside {

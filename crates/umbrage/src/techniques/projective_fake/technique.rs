@@ -5,7 +5,7 @@ use super::planes::{Blur, clip_from_eye};
 use crate::fullscreen::attachment;
 use crate::planar::{Chosen, Finder, LitPlane, Shadows, Wanted};
 use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
-use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+use crate::{error::Error, gpu::Gpu, inline::Lent, passes::Passes, view::View, visibility::VisibilityTarget};
 
 /// What can be asked for: the textures of the first planes.
 pub(super) const NAMES: &[&str] = &["texture-0", "texture-1", "texture-2", "texture-3"];
@@ -120,6 +120,10 @@ impl Technique for Filtered {
             passes.render("visibility", &[visibility.overwrite()], None);
         }
         Ok(())
+    }
+
+    fn lend(&mut self, _: &Gpu) -> Result<Lent, Error> {
+        Lent::refuse("projective-fake")
     }
 
     fn inside(&self) -> &dyn Inside {

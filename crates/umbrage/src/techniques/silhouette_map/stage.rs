@@ -3,7 +3,7 @@
 use crate::casters::Casters;
 use crate::depth_maps::{EdgeDraw, EdgePass, EdgeTarget, MapFrame, Stage};
 use crate::fullscreen::{bind, layer_view, layout, target_texture, texture};
-use crate::{Error, Gpu, Passes, Shader, View};
+use crate::{Binding, Error, Gpu, Passes, Resource, Shader, View};
 
 /// Draws points of silhouettes, and keeps them for as long as the maps of depths stay.
 pub(super) struct SilhouetteStage {
@@ -18,6 +18,8 @@ struct Made {
     /// The maps of depths.
     of: wgpu::Texture,
     layers: Vec<Layer>,
+    /// All layers of points.
+    points: wgpu::TextureView,
     bind_group: wgpu::BindGroup,
     bytes: u64,
 }
@@ -30,19 +32,25 @@ struct Layer {
     version: u64,
 }
 
+/// The points, and a sampler that gathers depths.
+const BINDINGS: [wgpu::BindingType; 2] = [
+    wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Depth,
+        view_dimension: wgpu::TextureViewDimension::D2Array,
+        multisampled: false,
+    },
+    PLAIN,
+];
+
+const PLAIN: wgpu::BindingType = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
+
 /// What a cell holds is a depth, see `silhouette_key.wgsl`.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 impl SilhouetteStage {
     pub fn new(gpu: &Gpu, points: &Shader) -> Self {
-        let maps = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Depth,
-            view_dimension: wgpu::TextureViewDimension::D2Array,
-            multisampled: false,
-        };
-        let plain = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
         let fragment = wgpu::ShaderStages::FRAGMENT;
-        let depths = layout(gpu, "depths", fragment, &[texture(wgpu::TextureSampleType::Depth), plain]);
+        let depths = layout(gpu, "depths", fragment, &[texture(wgpu::TextureSampleType::Depth), PLAIN]);
         let draw = EdgeDraw {
             vertex: "corner",
             fragment: Some("point_of_edge"),
@@ -56,7 +64,7 @@ impl SilhouetteStage {
             }),
         };
         Self {
-            layout: layout(gpu, "silhouette map", fragment, &[maps, plain]),
+            layout: layout(gpu, "silhouette map", fragment, &BINDINGS),
             edges: EdgePass::new(gpu, points, Some(&depths), &[], vec![draw]),
             depths,
             plain: gpu.sampler(&wgpu::SamplerDescriptor::default()),
@@ -82,6 +90,7 @@ impl SilhouetteStage {
             of: maps.clone(),
             layers: layers.collect(),
             bind_group: bind(gpu, "silhouette map", &self.layout, &resources),
+            points: all.clone(),
             bytes: u64::from(size) * u64::from(size) * u64::from(count) * 4,
         }
     }
@@ -122,6 +131,12 @@ impl Stage for SilhouetteStage {
 
     fn bind_group(&self) -> Option<&wgpu::BindGroup> {
         self.made.as_ref().map(|made| &made.bind_group)
+    }
+
+    fn lends(&self) -> Option<Vec<Binding>> {
+        let points = Resource::View(self.made.as_ref()?.points.clone());
+        let lent = [points, Resource::Sampler(self.plain.clone())];
+        Some((0..).zip(BINDINGS).zip(lent).map(|((i, ty), lent)| Binding::of_stage(i, ty, lent)).collect())
     }
 
     fn reads(&self, pass: &str) -> Option<u64> {

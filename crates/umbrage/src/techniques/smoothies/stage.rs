@@ -11,7 +11,7 @@ use crate::casters::Casters;
 use crate::depth_maps::{EdgeDraw, EdgePass, EdgeTarget, LAYER_NAMES, MapFrame, Stage};
 use crate::fullscreen::{self, FLOATS, UNIFORM, bind, layer_view, layout};
 use crate::technique::DebugView;
-use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
+use crate::{Binding, Resource, error::Error, gpu::Gpu, passes::Passes, view::View};
 use umbrage_core::Bounds;
 use umbrage_core::glam::DVec3;
 
@@ -49,6 +49,8 @@ struct Made {
     light: wgpu::Buffer,
     /// By layer: what fins read.
     fins: Vec<wgpu::BindGroup>,
+    /// Shares, and how far they are before the map.
+    read: [wgpu::TextureView; 2],
     look_up: wgpu::BindGroup,
 }
 
@@ -96,6 +98,13 @@ impl Draw {
     }
 }
 
+/// What the look-up reads, twice.
+const ARRAY: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: FLOATS,
+    view_dimension: wgpu::TextureViewDimension::D2Array,
+    multisampled: false,
+};
+
 impl SmoothieStage {
     pub fn new(gpu: &Gpu, settings: &Smoothies) -> Self {
         let switch = |on: bool| f64::from(u8::from(on));
@@ -104,11 +113,6 @@ impl SmoothieStage {
             ("REMAP", switch(settings.remap)),
             ("CONES", switch(settings.geometry == Geometry::Cones)),
         ];
-        let array = wgpu::BindingType::Texture {
-            sample_type: FLOATS,
-            view_dimension: wgpu::TextureViewDimension::D2Array,
-            multisampled: false,
-        };
         let stages = wgpu::ShaderStages::VERTEX_FRAGMENT;
         let map = fullscreen::texture(wgpu::TextureSampleType::Depth);
         let of_fins = layout(gpu, "fins", stages, &[UNIFORM, map]);
@@ -116,7 +120,7 @@ impl SmoothieStage {
             follows_light: settings.width == 0.0,
             remap: settings.remap,
             pass: EdgePass::new(gpu, &FINS, Some(&of_fins), &constants, Draw::ALL.map(Draw::edges).into()),
-            layout: layout(gpu, "smoothies", wgpu::ShaderStages::FRAGMENT, &[array, array]),
+            layout: layout(gpu, "smoothies", wgpu::ShaderStages::FRAGMENT, &[ARRAY, ARRAY]),
             of_fins,
             made: None,
             light: SmoothieLight::default(),
@@ -205,6 +209,11 @@ impl Stage for SmoothieStage {
         self.made.as_ref().map(|made| &made.look_up)
     }
 
+    fn lends(&self) -> Option<Vec<Binding>> {
+        let read = self.made.as_ref()?.read.clone();
+        Some((0..).zip(read).map(|(i, view)| Binding::of_stage(i, ARRAY, Resource::View(view))).collect())
+    }
+
     fn bytes(&self) -> u64 {
         self.pass.bytes() + self.made.as_ref().map_or(0, Made::bytes)
     }
@@ -273,6 +282,7 @@ impl Made {
             shown: shown.map(|shown| (shown, texture("smoothies to be looked at", format(shown)))),
             fins: (0..maps.depth_or_array_layers()).map(fins).collect(),
             look_up: bind(gpu, "smoothies", look_up, &read.each_ref().map(wgpu::BindingResource::TextureView)),
+            read,
             light,
             share,
             before,

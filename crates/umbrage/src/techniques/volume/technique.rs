@@ -11,7 +11,7 @@ use super::views::{self, Views};
 use crate::casters::Edges;
 use crate::silhouettes::{Part, Silhouettes, Style};
 use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
-use crate::{error::Error, gpu::Gpu, passes::Passes, receivers::Receivers, view::View, visibility::VisibilityTarget};
+use crate::{error::Error, gpu::Gpu, inline::Lent, passes::Passes, receivers::Receivers, view::View, visibility::VisibilityTarget};
 use umbrage_core::glam::DVec4;
 
 pub(super) struct Volume {
@@ -226,6 +226,10 @@ impl Technique for Volume {
             views.record(&self.gpu, passes, view, &self.silhouettes, edges, &self.selection);
         }
         Ok(())
+    }
+
+    fn lend(&mut self, _: &Gpu) -> Result<Lent, Error> {
+        Lent::refuse("volume")
     }
 
     fn inside(&self) -> &dyn Inside {

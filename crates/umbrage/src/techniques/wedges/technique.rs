@@ -17,7 +17,7 @@ use crate::casters::Edges;
 use crate::receivers::Eye;
 use crate::silhouettes::Part;
 use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
-use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+use crate::{error::Error, gpu::Gpu, inline::Lent, passes::Passes, view::View, visibility::VisibilityTarget};
 use umbrage_core::glam::DVec3;
 
 pub(super) struct Wedges {
@@ -259,6 +259,10 @@ impl Technique for Wedges {
         self.record_view(passes, view, visibility);
         self.budget.frame(passes.last_ms());
         Ok(())
+    }
+
+    fn lend(&mut self, _: &Gpu) -> Result<Lent, Error> {
+        Lent::refuse("wedges")
     }
 
     fn inside(&self) -> &dyn Inside {
