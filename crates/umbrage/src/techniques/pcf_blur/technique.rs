@@ -2,7 +2,9 @@
 
 use super::blur::ScreenBlur;
 use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
-use crate::{error::Error, gpu::Gpu, inline::Lent, passes::Passes, settings::Settings, view::View, visibility::VisibilityTarget};
+use crate::{
+    error::Error, gpu::Gpu, inline::Lent, passes::Passes, settings::Settings, view::View, visibility::VisibilityTarget,
+};
 use umbrage_core::light_view::LightView;
 
 pub(super) struct Blurred {

@@ -11,7 +11,10 @@ use super::views::{self, Views};
 use crate::casters::Edges;
 use crate::silhouettes::{Part, Silhouettes, Style};
 use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
-use crate::{error::Error, gpu::Gpu, inline::Lent, passes::Passes, receivers::Receivers, view::View, visibility::VisibilityTarget};
+use crate::{
+    error::Error, gpu::Gpu, inline::Lent, passes::Passes, receivers::Receivers, view::View,
+    visibility::VisibilityTarget,
+};
 use umbrage_core::glam::DVec4;
 
 pub(super) struct Volume {
