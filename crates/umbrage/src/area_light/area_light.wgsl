@@ -27,6 +27,10 @@ struct AreaLight {
     scale: u32,
     // −1 where light space is mirrored, else 1.
     handed: f32,
+    // Wedges that are built, see `make.wgsl`.
+    first_wedge: u32,
+    most_wedges: u32,
+    pad: vec2u,
     // Of a split disc the piece: see `Cell` in the core crate. Its rectangle, what its sides start
     // with, the arc's middle, what the arc starts with, and ∮ X × dX all around.
     cell: vec4f,

@@ -23,6 +23,9 @@ shader_struct! {
         cap_chunks: u32,
         scale: u32,
         handed: f32,
+        first_wedge: u32,
+        most_wedges: u32,
+        pad: [u32; 2],
         cell: [f32; 4],
         cell_sides: [f32; 4],
         cell_arc: [f32; 4],
@@ -48,6 +51,8 @@ pub(crate) struct Frame {
     pub cap_chunks: u32,
     /// Pixels of the picture to one of the buffer of shares, along each side.
     pub scale: u32,
+    /// The first of the wedges that are built, and how many they are at most.
+    pub wedges: [u32; 2],
 }
 
 impl Form {
@@ -78,6 +83,9 @@ impl Form {
             cap_chunks: frame.cap_chunks,
             scale: frame.scale,
             handed: self.to_light.determinant().signum() as f32,
+            first_wedge: frame.wedges[0],
+            most_wedges: frame.wedges[1],
+            pad: [0; 2],
             cell: singles([cell.low[0], cell.low[1], cell.high[0], cell.high[1]]),
             cell_sides: singles(cell.sides),
             cell_arc: singles([cell.arc_middle[0], cell.arc_middle[1], cell.arc, cell.around]),

@@ -4,8 +4,8 @@
 use crate::common::{gpu, pairs, scene};
 use crate::wedges::difference;
 use std::sync::{Arc, Mutex};
-use umbrage::core::glam::{DMat3, DVec2, DVec3};
-use umbrage::core::{Image, Light, LightShape, Scene};
+use umbrage::core::glam::{DAffine3, DMat3, DVec2, DVec3};
+use umbrage::core::{Image, Light, LightShape, Scene, primitive};
 use umbrage::{Error, Gpu, Param, ParamKind, Registry, TechniqueInfo, baseline, find, techniques};
 use umbrage_renderer::{LightPass, Renderer};
 
@@ -205,6 +205,43 @@ fn techniques_with_maps_shadow_posed_casters_on_the_smallest_devices() {
         assert!(complaints.is_empty(), "{}: {}", info.id, complaints.join("\n"));
     }
     assert!(works > 10, "only {works} work");
+}
+
+/// Wedges and caps that do not fit a binding come in rounds, which leaves the picture as it is.
+#[test]
+fn wedges_come_in_rounds_where_bindings_are_small() {
+    let scene = boxes_around_the_eye();
+    let [whole, rounds] = [wgpu::Limits::default().max_storage_buffer_binding_size, 1 << 16].map(|limit| {
+        let limits = wgpu::Limits { max_storage_buffer_binding_size: limit, ..Default::default() };
+        let (gpu, complaints) = plain(limits);
+        let pictures = ["", "split-light=2"].map(|set| picture(&gpu, &scene, "wedges", set).unwrap());
+        let complaints = complaints.lock().unwrap();
+        assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+        pictures
+    });
+    for (whole, rounds) in whole.iter().zip(&rounds) {
+        let mean = whole.data.iter().sum::<f32>() / whole.data.len() as f32;
+        assert!((0.2..0.95).contains(&mean), "{mean} is lit");
+        // Sums of halves of floats in another order.
+        assert!(difference(whole, rounds) < 1e-3, "{}", difference(whole, rounds));
+    }
+}
+
+/// 400 boxes before, beside and behind the eye, which is in the shadow of some.
+fn boxes_around_the_eye() -> Scene {
+    let mut scene = scene("contact", 1.0);
+    let (floor, cube) = (scene.add_mesh(primitive::plane()), scene.add_mesh(primitive::cube()));
+    scene.instances.clear();
+    scene.place(floor, 0, DAffine3::from_scale(DVec3::splat(20.0)));
+    for i in 0..400 {
+        let (x, z) = (f64::from(i % 20) - 9.5, f64::from(i / 20) - 9.5);
+        let at = DAffine3::from_translation(DVec3::new(x, 1.0 + 0.3 * (2.1 * x + z).sin(), z));
+        scene.place(cube, 0, at * DAffine3::from_rotation_y(x) * DAffine3::from_scale(DVec3::splat(0.3)));
+    }
+    scene.camera.eye = DVec3::new(0.4, 0.3, 3.0);
+    scene.camera.target = DVec3::new(0.0, 0.0, -3.0);
+    scene.lights = vec![Light::new(LightShape::Sphere { position: DVec3::new(1.0, 6.0, 2.0), radius: 0.4 })];
+    scene
 }
 
 /// Scenes whose edges are more than the device binds at once are refused by name; maps do them.

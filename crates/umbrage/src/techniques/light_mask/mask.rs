@@ -124,7 +124,7 @@ impl Mask {
         let (Some((_, pipeline)), Some(group), Some((_, trees))) = (pipeline, &self.bind_group, &mut self.trees) else {
             return;
         };
-        let frame = Frame { rounding: ROUNDING, cap_chunks: 0, scale: 1 };
+        let frame = Frame { rounding: ROUNDING, cap_chunks: 0, scale: 1, wedges: [0; 2] };
         passes.upload(&self.light, bytemuck::bytes_of(&form.uniform(view, &frame)));
         passes.upload(&self.eye, bytemuck::bytes_of(&Eye::new(view)));
         if let Some(made) = self.new_half_planes.take() {

@@ -3,8 +3,8 @@
 
 @group(0) @binding(0) var<uniform> light: AreaLight;
 @group(0) @binding(1) var<storage, read> wedges: array<Wedge>;
-// Arguments of the draws of all bodies, of single ones and of bundles.
-@group(0) @binding(2) var<storage, read_write> draws: array<atomic<u32>, 15>;
+// Arguments of the draws of all bodies, of single ones, of bundles and of sides.
+@group(0) @binding(2) var<storage, read_write> draws: array<atomic<u32>, 20>;
 @group(0) @binding(3) var<storage, read_write> bundles: array<Bundle>;
 // How many single wedges and how many bundles there are; then the numbers of the single ones.
 @group(0) @binding(4) var<storage, read_write> singles: array<atomic<u32>>;

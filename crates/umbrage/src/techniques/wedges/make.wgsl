@@ -6,7 +6,7 @@
 @group(1) @binding(4) var<storage, read> instances: array<Instance>;
 @group(2) @binding(0) var<uniform> light: AreaLight;
 @group(2) @binding(1) var<storage, read_write> wedges: array<Wedge>;
-@group(2) @binding(2) var<storage, read_write> draw: array<u32, 15>;
+@group(2) @binding(2) var<storage, read_write> draw: array<u32, 20>;
 
 // Wedges that an instance draws.
 const GROUP: u32 = 64u;
@@ -144,10 +144,13 @@ fn one_side(caster: u32, triangle: u32) -> vec2f {
 @compute @workgroup_size(64)
 fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) place_in: u32) {
     let number = (group.x + group.y * groups.x) * GROUP + place_in;
-    let count = list[1];
+    let found = list[1];
+    let first = light.first_wedge;
+    let count = min(found - min(found, first), light.most_wedges);
     let used = (count + GROUP - 1u) / GROUP;
     if number == 0u {
         draw[1] = used;
+        draw[16] = used;
     }
     if number >= used * GROUP {
         return;
@@ -156,7 +159,7 @@ fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         wedges[number] = no_wedge();
         return;
     }
-    let entry = list[list[0] + number];
+    let entry = list[list[0] + first + number];
     let slot = entry >> 2u;
     let caster = list[HEADER + slot / CHUNK];
     let edge = edges[casters[caster].first_edge + slot - casters[caster].edge_chunk * CHUNK];

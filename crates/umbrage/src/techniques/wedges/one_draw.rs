@@ -30,6 +30,10 @@ impl Way for OneDraw {
         !self.is_split
     }
 
+    fn at_once(&self) -> bool {
+        false
+    }
+
     fn prepare(
         &mut self,
         gpu: &Gpu,
@@ -49,12 +53,15 @@ impl Way for OneDraw {
 
     fn add_up(&self, passes: &mut Passes<'_>, view: &View<'_>, number: usize, piece: &Piece, r: &Recording<'_>) -> u32 {
         let Some(layer) = r.target.layers.get(number) else { return 0 };
-        let color = attachment(layer, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));
+        let clear = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
+        let color = attachment(layer, if r.round.is_first { clear } else { wgpu::LoadOp::Load });
         let mut pass = piece.begin(passes, view, color, None, r);
         let mut drawn = piece.all_hard(&mut pass, view, r);
         if !piece.form.is_point() {
             drawn += piece.all_bodies(&mut pass, view, self.bodies(), r);
-            drawn += piece.cut_casters(&mut pass, view, r);
+            if r.round.is_first {
+                drawn += piece.cut_casters(&mut pass, view, r);
+            }
         }
         drawn
     }

@@ -3,10 +3,11 @@
 use super::cuts::{CUTS, CutBuffer};
 use super::draws::{self, Draw};
 use super::pipelines::{Key, Making, Pipelines};
-use super::records::{GROUP, WINDOW};
+use super::records::{GROUP, Needs, Round, WINDOW};
 use super::select::{CHUNK, Selection};
 use super::tables::Term;
-use super::targets::{Buffers, Needs, Target};
+use super::way::Way;
+use super::targets::{Buffers, SIDES, Target};
 use crate::area_light::{Form, Frame, ROUNDING};
 use crate::casters::Edges;
 use crate::receivers::Eye;
@@ -26,8 +27,9 @@ const ROW: u32 = 65_535;
 /// window of edges would find nothing to do.
 const MOST_GROUPS: u32 = 32;
 
-/// Indices of a body.
+/// Indices of a body, and of a side.
 pub(super) const BODY_INDICES: u32 = 24;
+pub(super) const SIDE_INDICES: u32 = 6;
 
 pub(super) struct Piece {
     pub form: Form,
@@ -36,6 +38,9 @@ pub(super) struct Piece {
     pub selection: Selection,
     pub silhouettes: Silhouettes,
     pub buffers: Option<Buffers>,
+    /// What all its casters need, and what is built in one round.
+    needs: Needs,
+    round: Needs,
     cuts: CutBuffer,
 }
 
@@ -46,6 +51,7 @@ pub(super) struct Recording<'a> {
     pub body_indices: &'a wgpu::Buffer,
     /// Tables that shares are looked up in.
     pub tables: &'a wgpu::BindGroup,
+    pub round: Round,
 }
 
 impl Piece {
@@ -57,6 +63,8 @@ impl Piece {
             selection: Selection::default(),
             silhouettes,
             buffers: None,
+            needs: Needs::default(),
+            round: Needs::default(),
             cuts: CutBuffer::default(),
         }
     }
@@ -67,20 +75,22 @@ impl Piece {
         gpu: &Gpu,
         view: &View<'_>,
         pipelines: &mut Pipelines,
-        bundles: bool,
+        way: &dyn Way,
     ) -> Result<(), Error> {
         let style = Style { weighted: true, quads: true };
         let projection = (&view.camera.clip_from_world(), is_reversed(view));
         let throws = &self.selection.throws;
         self.silhouettes.prepare(gpu, view.casters, projection, self.form.center, throws, style)?;
         let needs = Needs { wedges: self.silhouettes.room(Part::PassSides), caps: self.selection.caps.len() as u32 };
-        if self.buffers.as_ref().is_none_or(|b| !b.hold(&needs)) {
-            self.buffers = Some(Buffers::new(gpu, pipelines, &needs)?);
+        let limit = gpu.device.limits().max_storage_buffer_binding_size;
+        (self.needs, self.round) = (needs, if way.at_once() { needs } else { needs.round(limit) });
+        if self.buffers.as_ref().is_none_or(|b| !b.hold(&self.round)) {
+            self.buffers = Some(Buffers::new(gpu, pipelines, &self.round)?);
         }
         self.cuts.prepare(gpu, self.selection.cuts.len());
         pipelines.prepare_making(gpu, Making::Wedges { reversed: is_reversed(view) });
         pipelines.prepare_making(gpu, Making::Caps);
-        if bundles {
+        if way.bundles() {
             pipelines.prepare_making(gpu, Making::Bundles);
         }
         Ok(())
@@ -101,13 +111,29 @@ impl Piece {
         self.form.cell.is_some()
     }
 
-    /// Finds silhouettes and builds wedges.
+    /// Rounds of a frame. The first one is recorded last, so that it is what debug views show.
+    pub fn rounds(&self) -> impl Iterator<Item = Round> + use<> {
+        let count = self.needs.rounds(&self.round).max(1);
+        (0..count).rev().map(move |number| Round { number, is_first: number + 1 == count })
+    }
+
+    /// Chunks of caps of a round.
+    fn caps_of(&self, round: Round) -> &[[u32; 2]] {
+        let caps = &self.selection.caps;
+        let start = (round.number as usize * self.round.caps as usize).min(caps.len());
+        &caps[start..(start + self.round.caps as usize).min(caps.len())]
+    }
+
+    /// Finds silhouettes, once for all rounds, and builds wedges.
     pub fn build(&self, passes: &mut Passes<'_>, view: &View<'_>, edges: &Edges, bundles: bool, r: &Recording<'_>) {
         let Some(buffers) = &self.buffers else { return };
-        self.upload(passes, view, buffers, r.target);
-        self.silhouettes.record(passes, edges);
+        self.upload(passes, view, buffers, r);
+        if r.round.is_first {
+            self.cuts.upload(passes, &self.selection.cuts);
+            self.silhouettes.record(passes, edges);
+        }
         let Some(found) = self.silhouettes.found_by_gpu() else { return };
-        let room = self.silhouettes.room(Part::PassSides);
+        let room = self.round.wedges;
         let mut pass = passes.compute("build wedges");
         pass.set_bind_group(0, found, &[]);
         if let Some(making) = r.pipelines.making(Making::Wedges { reversed: is_reversed(view) }) {
@@ -116,7 +142,7 @@ impl Piece {
             pass.set_bind_group(2, &buffers.make, &[]);
             dispatch(&mut pass, room.div_ceil(GROUP));
         }
-        let chunks = self.selection.caps.len() as u32;
+        let chunks = self.caps_of(r.round).len() as u32;
         if let Some(caps) = r.pipelines.making(Making::Caps).filter(|_| chunks > 0) {
             pass.set_pipeline(caps);
             pass.set_bind_group(1, &edges.make_triangles, &[]);
@@ -131,16 +157,21 @@ impl Piece {
         }
     }
 
-    fn upload(&self, passes: &mut Passes<'_>, view: &View<'_>, buffers: &Buffers, target: &Target) {
-        let cap_chunks = self.selection.caps.len() as u32;
-        let frame = Frame { rounding: ROUNDING, cap_chunks, scale: target.key.scale };
+    fn upload(&self, passes: &mut Passes<'_>, view: &View<'_>, buffers: &Buffers, r: &Recording<'_>) {
+        let (caps, most) = (self.caps_of(r.round), self.round.wedges);
+        let frame = Frame {
+            rounding: ROUNDING,
+            cap_chunks: caps.len() as u32,
+            scale: r.target.key.scale,
+            wedges: [r.round.number.saturating_mul(most), most],
+        };
         passes.upload(&buffers.light, bytemuck::bytes_of(&self.form.uniform(view, &frame)));
         passes.upload(&buffers.eye, bytemuck::bytes_of(&Eye::new(view)));
-        passes.upload(&buffers.cap_chunks, bytemuck::cast_slice(&self.selection.caps));
+        passes.upload(&buffers.cap_chunks, bytemuck::cast_slice(caps));
         let no_bodies = [GROUP * BODY_INDICES, 0, 0, 0, 0];
-        passes.upload(&buffers.bodies, bytemuck::cast_slice(&[no_bodies; 3]));
+        let no_sides = [GROUP * SIDE_INDICES, 0, 0, 0, 0];
+        passes.upload(&buffers.bodies, bytemuck::cast_slice(&[no_bodies, no_bodies, no_bodies, no_sides]));
         passes.upload(&buffers.singles, &[0; 8]);
-        self.cuts.upload(passes, &self.selection.cuts);
     }
 
     /// A pass of its draws.
@@ -172,13 +203,13 @@ impl Piece {
     pub fn all_hard(&self, pass: &mut wgpu::RenderPass<'_>, view: &View<'_>, r: &Recording<'_>) -> u32 {
         let pipeline = r.pipelines.drawing(self.key(view, &draws::SIDES, r.target));
         let mut drawn = 0;
-        if let Some((pipeline, (arguments, offset))) = pipeline.zip(self.silhouettes.arguments(Part::PassSides)) {
+        if let Some((pipeline, buffers)) = pipeline.zip(self.buffers.as_ref()) {
             pass.set_pipeline(pipeline);
             pass.set_index_buffer(self.silhouettes.corner_indices().slice(..), wgpu::IndexFormat::Uint16);
-            pass.draw_indexed_indirect(arguments, offset);
+            pass.draw_indexed_indirect(&buffers.bodies, SIDES);
             drawn += 1;
         }
-        drawn + self.caps(pass, view, 0..self.selection.caps.len() as u32, r)
+        drawn + self.caps(pass, view, 0..self.caps_of(r.round).len() as u32, r)
     }
 
     /// Bodies, as the GPU counted them, by draws with where their arguments are.

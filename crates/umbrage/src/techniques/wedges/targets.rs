@@ -1,8 +1,7 @@
 //! Buffers and textures of a light's wedges.
 
 use super::pipelines::Pipelines;
-use super::records::{BUNDLE, BUNDLE_RECORD, CAP_RECORD, GROUP, RECORD};
-use super::select::CHUNK;
+use super::records::{BUNDLE, BUNDLE_RECORD, CAPS, GROUP, Needs, RECORD};
 use crate::area_light::{AreaLight, scaled};
 use crate::fullscreen::{bind, target_texture};
 use crate::receivers::Eye;
@@ -11,24 +10,18 @@ use crate::{error::Error, gpu::Gpu, passes::Passes, receivers::Receivers, view::
 /// Where in [`Buffers::bodies`] the arguments of the draws of single wedges and of bundles are.
 pub(super) const SINGLES: u64 = 20;
 pub(super) const BUNDLES: u64 = 40;
+/// And those of the sides of hard shadows.
+pub(super) const SIDES: u64 = 60;
 
-/// Bytes of the caps of a chunk.
-const CAPS: usize = CAP_RECORD as usize * CHUNK as usize;
-
-/// Numbers of things that buffers have to hold.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Needs {
-    pub wedges: u32,
-    /// Chunks of triangles that are drawn.
-    pub caps: u32,
-}
+/// Bytes that tell which triangles a chunk of caps has, see `caps.wgsl`.
+const CHUNK_BYTES: u64 = 8;
 
 /// What grows with casters, of one piece of a light.
 pub(super) struct Buffers {
     pub light: wgpu::Buffer,
     pub eye: wgpu::Buffer,
     pub wedges: wgpu::Buffer,
-    /// Arguments of the draws of all bodies, of single ones and of bundles.
+    /// Arguments of the draws of all bodies, of single ones, of bundles and of sides.
     pub bodies: wgpu::Buffer,
     bundles: wgpu::Buffer,
     pub singles: wgpu::Buffer,
@@ -47,11 +40,13 @@ impl Buffers {
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
         let size = u64::from(needs.wedges.next_multiple_of(GROUP)) * RECORD;
         if size > limit {
-            return Err(Error::Size { what: "the wedges of a light".into(), size, limit });
+            let what = "the wedges of a light, all at once (the default settings draw them in rounds)";
+            return Err(Error::Size { what: what.into(), size, limit });
         }
-        let caps_size = u64::from(needs.caps.next_power_of_two()) * CAPS as u64;
+        let caps_size = u64::from(needs.caps) * CAPS;
         if caps_size > limit {
-            return Err(Error::Size { what: "the masked casters of a light".into(), size: caps_size, limit });
+            let what = "the casters around the eye, all at once (the default settings draw them in rounds)";
+            return Err(Error::Size { what: what.into(), size: caps_size, limit });
         }
         let buffer = |label, size: u64, usage| {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -66,14 +61,14 @@ impl Buffers {
         // Half as much again, so that a moving camera does not make it grow all the time.
         let wedges = buffer("wedges", (size + size / 2).clamp(RECORD * 64, limit).next_multiple_of(16), Usage::STORAGE);
         let room = wedges.size() / RECORD;
-        let bodies = buffer("draws of wedges", 60, Usage::STORAGE | Usage::INDIRECT);
+        let bodies = buffer("draws of wedges", 80, Usage::STORAGE | Usage::INDIRECT);
         let bundles = buffer("bundles", (room / BUNDLE).max(1) * BUNDLE_RECORD, Usage::STORAGE);
         let singles = buffer("single wedges", 4 * (2 + room), Usage::STORAGE);
-        let some = |label, number: u32, bytes: usize, usage| {
-            buffer(label, u64::from(number.max(1).next_power_of_two()) * bytes as u64, Usage::STORAGE | usage)
+        let some = |label, bytes: u64| {
+            let size = u64::from(needs.caps.max(1).next_power_of_two()) * bytes;
+            buffer(label, size.min(limit / bytes * bytes), Usage::STORAGE)
         };
-        let cap_chunks = some("chunks of caps", needs.caps, 8, Usage::empty());
-        let caps = some("caps", needs.caps, CAPS, Usage::empty());
+        let (cap_chunks, caps) = (some("chunks of caps", CHUNK_BYTES), some("caps", CAPS));
         let all = |buffers: &[&wgpu::Buffer], layout| {
             let entries: Vec<_> = buffers.iter().map(|b| b.as_entire_binding()).collect();
             bind(gpu, "wedges", layout, &entries)
@@ -97,8 +92,8 @@ impl Buffers {
 
     pub fn hold(&self, needs: &Needs) -> bool {
         self.wedges.size() >= u64::from(needs.wedges.next_multiple_of(GROUP)) * RECORD
-            && self.cap_chunks.size() >= u64::from(needs.caps) * 8
-            && self.caps.size() >= u64::from(needs.caps) * CAPS as u64
+            && self.cap_chunks.size() >= u64::from(needs.caps) * CHUNK_BYTES
+            && self.caps.size() >= u64::from(needs.caps) * CAPS
     }
 
     pub fn bytes(&self) -> u64 {

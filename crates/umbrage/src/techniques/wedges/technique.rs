@@ -94,7 +94,7 @@ impl Wedges {
         let scales = self.scales();
         let pipelines = self.pipelines.get_or_insert_with(|| Pipelines::new(gpu, layout));
         for piece in &mut self.pieces {
-            piece.prepare(gpu, view, pipelines, self.way.bundles())?;
+            piece.prepare(gpu, view, pipelines, &*self.way)?;
         }
         self.targets.truncate(scales.len());
         for (i, scale) in scales.iter().enumerate() {
@@ -145,12 +145,14 @@ impl Wedges {
             let Some(buffers) = &piece.buffers else { continue };
             let body_indices = &self.body_indices;
             let tables = self.tables.group_of_piece(piece.term, i);
-            let recording = Recording { pipelines, target, body_indices, tables };
-            piece.build(passes, view, edges, self.way.bundles(), &recording);
-            if i == 0 {
-                draws += target.copy_depth(passes, view, pipelines, buffers);
+            for round in piece.rounds() {
+                let recording = Recording { pipelines, target, body_indices, tables, round };
+                piece.build(passes, view, edges, self.way.bundles(), &recording);
+                if i == 0 && round.is_first {
+                    draws += target.copy_depth(passes, view, pipelines, buffers);
+                }
+                draws += self.way.add_up(passes, view, i, piece, &recording);
             }
-            draws += self.way.add_up(passes, view, i, piece, &recording);
         }
         self.upload(passes, view, form, target);
         let mut pass = passes.render("visibility", &[visibility.overwrite()], None);
@@ -191,7 +193,7 @@ impl Wedges {
 
     /// What resolving reads.
     fn upload(&self, passes: &mut Passes<'_>, view: &View<'_>, form: &Form, target: &Target) {
-        let frame = Frame { rounding: ROUNDING, cap_chunks: 0, scale: target.key.scale };
+        let frame = Frame { rounding: ROUNDING, cap_chunks: 0, scale: target.key.scale, wedges: [0; 2] };
         let mut pieces = [[0.0; 4]; MOST_PIECES];
         for (i, (record, piece)) in pieces.iter_mut().zip(&self.pieces).enumerate() {
             *record = piece.record(self.way.shadows_of_eye(i, piece));

@@ -20,6 +20,12 @@ pub(super) trait Way: wgpu::WasmNotSend {
         false
     }
 
+    /// Whether all wedges of a piece have to be there before the first one is drawn. If not, they
+    /// may come in rounds.
+    fn at_once(&self) -> bool {
+        true
+    }
+
     /// The format of the depth buffer that wedges are drawn against, where it can't be the
     /// receivers' own at any scale.
     fn depth_format(&self) -> Option<wgpu::TextureFormat> {
@@ -39,8 +45,8 @@ pub(super) trait Way: wgpu::WasmNotSend {
         pipelines: &mut Pipelines,
     ) -> Result<(), Error>;
 
-    /// Adds up what casters cover of a piece, whose wedges are built, in its layer of the target;
-    /// gives the number of draws.
+    /// Adds up what casters cover of a piece, as far as its wedges are built in this round, in its
+    /// layer of the target; gives the number of draws.
     fn add_up(&self, passes: &mut Passes<'_>, view: &View<'_>, number: usize, piece: &Piece, r: &Recording<'_>) -> u32;
 
     /// The shadows that the eye is in and that [`Way::add_up`] leaves to the last pass.

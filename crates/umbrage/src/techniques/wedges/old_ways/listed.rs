@@ -1,7 +1,7 @@
 //! Draws of wedges that the CPU listed.
 
 use super::super::draws::Draw;
-use super::super::piece::{BODY_INDICES, Piece, Recording};
+use super::super::piece::{BODY_INDICES, Piece, Recording, SIDE_INDICES};
 use super::super::records::GROUP;
 use crate::view::View;
 use std::ops::Range;
@@ -9,8 +9,6 @@ use std::ops::Range;
 /// Corners of a body and of a side, by which vertices are numbered.
 pub(super) const BODY_CORNERS: u32 = 6;
 const SIDE_CORNERS: u32 = 4;
-
-const SIDE_INDICES: u32 = 6;
 
 /// All wedges of a piece.
 pub(super) fn all(piece: &Piece) -> Range<u32> {
