@@ -26,6 +26,18 @@ pub enum Error {
     /// The driver rejected something that should have been right.
     #[error("the graphics driver reports: {0}")]
     Driver(String),
+    /// Encoders were submitted in another order than they were recorded in. Whatever was kept from
+    /// frame to frame is made anew.
+    #[error(
+        "frame {frame} of a recorder was submitted after frame {by}; submit encoders in the order in which they were \
+         given to Recorder::begin"
+    )]
+    Order {
+        /// The frame that came late, counted by its recorder from 1.
+        frame: u64,
+        /// A later one that came before it.
+        by: u64,
+    },
     /// Fragments were to be counted, and the device only tells whether there are any.
     #[error("this adapter counts no fragments, it only tells whether there are any; choose another with --adapter")]
     NotCounted,

@@ -5,6 +5,7 @@ mod arrival;
 #[cfg(not(target_family = "wasm"))]
 mod blocking;
 mod shared;
+mod watch;
 
 use crate::error::Error;
 use crate::snapping;
@@ -12,9 +13,9 @@ pub use adapter::AdapterSummary;
 pub(crate) use arrival::arrival;
 use shared::Shared;
 use std::pin::pin;
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, OnceLock};
 use std::task::{Context, Poll, Waker};
-use wgpu::util::DeviceExt;
+use watch::Watch;
 
 /// A device with its queue, cheap to clone. Clones share what techniques compile; a host makes one
 /// for its device and clones that.
@@ -25,7 +26,7 @@ pub struct Gpu {
     /// Its queue.
     pub queue: wgpu::Queue,
     adapter: AdapterSummary,
-    trouble: Arc<Mutex<Option<Error>>>,
+    watch: Arc<Watch>,
     snapping: Arc<OnceLock<f32>>,
     shared: Arc<Shared>,
 }
@@ -64,11 +65,11 @@ impl Gpu {
             .await
             .map_err(|e| Error::NoDevice { adapter: adapter.get_info().name, reason: e.to_string() })?;
         let gpu = Self::new(device, queue);
-        let trouble = gpu.trouble.clone();
-        gpu.device.on_uncaptured_error(Arc::new(move |e: wgpu::Error| report(&trouble, Error::Driver(e.to_string()))));
-        let trouble = gpu.trouble.clone();
+        let watch = gpu.watch.clone();
+        gpu.device.on_uncaptured_error(Arc::new(move |e: wgpu::Error| watch.report(Error::Driver(e.to_string()))));
+        let watch = gpu.watch.clone();
         gpu.device.set_device_lost_callback(move |reason, text| {
-            report(&trouble, Error::DeviceLost(format!("{reason:?} {text}").trim().to_string()));
+            watch.report(Error::DeviceLost(format!("{reason:?} {text}").trim().to_string()));
         });
         if cfg!(target_family = "wasm") {
             gpu.measure_async().await;
@@ -76,10 +77,18 @@ impl Gpu {
         Ok(gpu)
     }
 
-    /// A host's own device. The host keeps its error and device-lost handlers.
+    /// A host's own device. The host keeps its error and device-lost handlers; that the device is
+    /// lost is noticed all the same, but in a browser, where the host has to say so: [`Gpu::lost`].
     pub fn new(device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let adapter = AdapterSummary::of_info(&device.adapter_info());
-        Self { device, queue, adapter, trouble: Arc::default(), snapping: Arc::default(), shared: Arc::default() }
+        let watch = Arc::new(Watch::new(&device));
+        Self { device, queue, adapter, watch, snapping: Arc::default(), shared: Arc::default() }
+    }
+
+    /// To be called by a host's own device-lost handler: from here on, everything that would use
+    /// the device is [`Error::DeviceLost`] with this reason. It is for all clones of this value.
+    pub fn lost(&self, reason: &str) {
+        self.watch.report(Error::DeviceLost(reason.into()));
     }
 
     /// The adapter in use.
@@ -114,15 +123,47 @@ impl Gpu {
         }
     }
 
-    /// The first error that the driver reported out of order, if any; a lost device stays lost.
+    /// The first error that the driver reported out of order, if any; a lost device stays lost. Of
+    /// a host's own device, other errors than its loss go to the host.
     ///
     /// # Errors
     /// [`Error::DeviceLost`] or [`Error::Driver`].
     pub fn check(&self) -> Result<(), Error> {
-        match self.trouble.lock() {
-            Ok(trouble) => trouble.clone().map_or(Ok(()), Err),
-            Err(_) => Err(Error::Driver("an error handler panicked".into())),
+        self.check_loss()?;
+        self.watch.trouble().map_or(Ok(()), Err)
+    }
+
+    /// That the device is not lost.
+    pub(crate) fn check_loss(&self) -> Result<(), Error> {
+        self.watch.loss().map_or(Ok(()), Err)
+    }
+
+    /// That the host has done nothing wrong that it has not heard of.
+    pub(crate) fn check_fault(&self) -> Result<(), Error> {
+        self.watch.take_fault().map_or(Ok(()), Err)
+    }
+
+    /// Learns what became of frames that were submitted, without waiting for any; once after each.
+    pub(crate) fn settle(&self) {
+        if self.watch.settle() && self.check_loss().is_ok() {
+            // What it returns is news of the queue, which nobody asked for.
+            let _ = self.device.poll(wgpu::PollType::Poll);
         }
+    }
+
+    /// There is work to learn of.
+    pub(crate) fn unsettle(&self) {
+        self.watch.unsettle();
+    }
+
+    /// Counts frames that were executed, of all recorders.
+    pub(crate) fn count_frame(&self) -> u64 {
+        self.watch.count_frame()
+    }
+
+    /// This frame of a recorder was executed after one that was recorded later.
+    pub(crate) fn overtaken(&self, frame: u64, by: u64) {
+        self.watch.fault(Error::Order { frame, by });
     }
 
     /// Waits until all work that was submitted before is done. In a browser it is told by itself;
@@ -191,15 +232,18 @@ impl Gpu {
     pub fn buffer<T: bytemuck::NoUninit>(&self, label: &str, data: &[T], usage: wgpu::BufferUsages) -> wgpu::Buffer {
         let mut contents = bytemuck::cast_slice::<T, u8>(data).to_vec();
         contents.resize(contents.len().next_multiple_of(16).max(16), 0);
-        let descriptor = wgpu::util::BufferInitDescriptor { label: Some(label), contents: &contents, usage };
-        self.device.create_buffer_init(&descriptor)
-    }
-}
-
-fn report(trouble: &Mutex<Option<Error>>, error: Error) {
-    if let Ok(mut slot) = trouble.lock()
-        && (slot.is_none() || matches!(error, Error::DeviceLost(_)))
-    {
-        *slot = Some(error);
+        let size = contents.len() as u64;
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size,
+            usage,
+            mapped_at_creation: true,
+        });
+        // Memory that is not there is that of a lost device, see `Gpu::check`, or too much.
+        if let Ok(mut memory) = buffer.slice(..).get_mapped_range_mut() {
+            memory.copy_from_slice(&contents);
+        }
+        buffer.unmap();
+        buffer
     }
 }

@@ -73,7 +73,7 @@ pub use error::{Error, nearest};
 pub use gpu::{AdapterSummary, Gpu};
 pub use inline::{Binding, Followed, Inline, Lent, Resource};
 pub use light_samples::light_samples;
-pub use passes::{Owner, Pass, PassFragments, PassTime, Passes, Recorder};
+pub use passes::{Kept, Owner, Pass, PassFragments, PassTime, Passes, Recorder};
 pub use prepared::Prepared;
 pub use receivers::{Eye, Receivers};
 pub use registry::{Filter, FilterId, FilterUse, Registry, find, parse, techniques};

@@ -15,6 +15,9 @@ impl dyn Technique {
     /// [`Error::Unsupported`] for a light or view that the technique can't do, [`Error::Size`]
     /// beyond the limits.
     pub fn prepare<'t>(&'t mut self, gpu: &Gpu, view: &View<'t>) -> Result<Prepared<'t>, Error> {
+        gpu.check_loss()?;
+        gpu.settle();
+        gpu.check_fault()?;
         self.prepare_view(gpu, view, InOrder::new())?;
         Ok(Prepared { technique: self, view: *view })
     }

@@ -5,7 +5,12 @@
 mod device;
 
 use super::vertices::MeshPart;
-use crate::{error::Error, gpu::Gpu, passes::Passes, shader::Shared};
+use crate::{
+    error::Error,
+    gpu::Gpu,
+    passes::{Kept, Passes},
+    shader::Shared,
+};
 pub(crate) use device::SHADERS;
 pub(super) use device::planes_group;
 use device::{Device, GROUP, JointRows, PosedMesh};
@@ -24,6 +29,8 @@ pub(super) struct Poses {
     scene_meshes: usize,
     posed: Vec<Posed>,
     device: Option<Device>,
+    /// The vertices on the GPU.
+    kept: Kept,
     /// What changed, as it goes to the GPU. Keep their memory.
     work: Vec<PosedMesh>,
     joints: Vec<JointRows>,
@@ -64,7 +71,14 @@ impl Poses {
                 planes: OnceLock::new(),
             });
         }
-        Self { scene_meshes: scene.meshes.len(), posed, device: None, work: Vec::new(), joints: Vec::new() }
+        Self {
+            scene_meshes: scene.meshes.len(),
+            posed,
+            device: None,
+            kept: Kept::default(),
+            work: Vec::new(),
+            joints: Vec::new(),
+        }
     }
 
     /// For each of them the number of the mesh it is made of, and that mesh bent.
@@ -176,6 +190,16 @@ impl Poses {
         Ok(())
     }
 
+    /// Where vertices are not as they were recorded, has all bent again; the numbers of their
+    /// instances then.
+    pub fn heal(&mut self) -> impl Iterator<Item = usize> + '_ {
+        let is_lost = !self.kept.holds();
+        self.posed.iter_mut().filter(move |_| is_lost).map(|posed| {
+            posed.changed = true;
+            posed.instance
+        })
+    }
+
     /// Bends what has changed, and remakes its planes where there are any: `group` is that of
     /// [`planes_group`], `planes_of` tells where those of a mesh lie.
     pub fn record(
@@ -185,6 +209,7 @@ impl Poses {
         planes_of: impl Fn(u32) -> Option<Planes>,
     ) {
         let Some(device) = self.device.as_ref().filter(|_| self.posed.iter().any(|p| p.changed)) else { return };
+        self.kept.note(passes);
         self.work.clear();
         self.joints.clear();
         let (mut most_vertices, mut most_triangles) = (0, 0);

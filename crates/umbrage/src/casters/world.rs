@@ -244,6 +244,8 @@ impl Casters {
     /// once for everybody who draws them: to be called before the G-buffer is drawn and before
     /// techniques are recorded.
     pub fn record_poses(&mut self, passes: &mut Passes<'_>) {
+        let lost: Vec<_> = self.poses.heal().filter_map(|i| self.place_of.get(i).copied()).collect();
+        lost.into_iter().for_each(|place| self.note_moved(place));
         let edges = self.edges.get();
         let planes = edges.and_then(|edges| edges.pose.as_ref());
         self.poses.record(passes, planes, |mesh| edges.map(|edges| edges.of_mesh(mesh).planes()));

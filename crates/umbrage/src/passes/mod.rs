@@ -6,13 +6,19 @@
 //! uniforms. Uploads here are copies within the encoder, from a staging belt that keeps its memory.
 
 mod fragments;
+mod kept;
 mod queries;
+mod stamps;
 mod timer;
 
 use crate::{error::Error, gpu::Gpu};
 use fragments::{Counted, Counter, touched};
 pub use fragments::{Pass, PassFragments};
+use kept::Frame;
+pub use kept::Kept;
+use stamps::Stamps;
 use std::fmt;
+use std::sync::Arc;
 use timer::Timer;
 use wgpu::util::StagingBelt;
 
@@ -47,7 +53,9 @@ pub struct PassTime {
 
 /// What recording needs across frames: upload memory and timestamp queries.
 pub struct Recorder {
+    gpu: Gpu,
     belt: StagingBelt,
+    stamps: Stamps,
     timer: Option<Timer>,
     counter: Option<Counter>,
 }
@@ -56,7 +64,7 @@ impl Recorder {
     /// Times passes where the device has `TIMESTAMP_QUERY`.
     pub fn new(gpu: &Gpu) -> Self {
         let timer = gpu.has(wgpu::Features::TIMESTAMP_QUERY).then(|| Timer::new(gpu));
-        Self { belt: belt(gpu), timer, counter: None }
+        Self::with(gpu, timer, None)
     }
 
     /// Counts the fragments of passes in place of timing them, since counting takes time.
@@ -66,13 +74,22 @@ impl Recorder {
     /// standard allows; and as [`Gpu::wait`].
     #[cfg(not(target_family = "wasm"))]
     pub fn counting(gpu: &Gpu) -> Result<Self, Error> {
-        let mut recorder = Self { belt: belt(gpu), timer: None, counter: Some(Counter::new(gpu)) };
+        let mut recorder = Self::with(gpu, None, Some(Counter::new(gpu)));
         let known = fragments::of_a_known_pass(gpu, &mut recorder)?;
         if known == fragments::KNOWN { Ok(recorder) } else { Err(Error::NotCounted) }
     }
 
-    /// Starts a frame on a host's encoder. Call [`Passes::finish`] before the encoder is finished.
+    fn with(gpu: &Gpu, timer: Option<Timer>, counter: Option<Counter>) -> Self {
+        // Memory for uploads, which grows where it is too small.
+        let belt = StagingBelt::new(gpu.device.clone(), 1 << 18);
+        Self { gpu: gpu.clone(), belt, stamps: Stamps::new(gpu), timer, counter }
+    }
+
+    /// Starts a frame on a host's encoder, which is to be submitted after those of earlier frames:
+    /// what one frame leaves on the GPU, the next one may use. Callbacks of work that is done may be
+    /// called.
     pub fn begin<'a>(&'a mut self, encoder: &'a mut wgpu::CommandEncoder) -> Passes<'a> {
+        self.gpu.settle();
         if let Some(timer) = &mut self.timer {
             timer.queries.begin();
         }
@@ -80,7 +97,9 @@ impl Recorder {
             counter.queries.begin();
         }
         let (timer, counter) = (self.timer.as_mut(), self.counter.as_mut());
-        Passes { encoder, belt: &mut self.belt, timer, counter, owner: Owner::Host("") }
+        let frame = self.stamps.begin();
+        let (gpu, belt, stamps) = (&self.gpu, &mut self.belt, &self.stamps);
+        Passes { encoder, gpu, belt, stamps, frame, timer, counter, owner: Owner::Host("") }
     }
 
     /// GPU times of the newest frame whose results have arrived; empty without timestamps. Never
@@ -100,15 +119,15 @@ impl Recorder {
     }
 }
 
-/// Memory for uploads, which grows where it is too small.
-fn belt(gpu: &Gpu) -> StagingBelt {
-    StagingBelt::new(gpu.device.clone(), 1 << 18)
-}
-
-/// One frame's recording.
+/// One frame's recording. It ends with [`Passes::finish`], or when it is dropped; the encoder can't
+/// be finished before.
+#[must_use = "a frame ends at once where nobody keeps it"]
 pub struct Passes<'a> {
     encoder: &'a mut wgpu::CommandEncoder,
+    gpu: &'a Gpu,
     belt: &'a mut StagingBelt,
+    stamps: &'a Stamps,
+    frame: Arc<Frame>,
     timer: Option<&'a mut Timer>,
     counter: Option<&'a mut Counter>,
     owner: Owner,
@@ -135,9 +154,18 @@ impl Passes<'_> {
     /// Replaces the start of `buffer` by `data` for everything recorded after this.
     /// `data` is a multiple of four bytes long.
     pub fn upload(&mut self, buffer: &wgpu::Buffer, data: &[u8]) {
-        if let Some(size) = wgpu::BufferSize::new(data.len() as u64) {
-            self.belt.write_buffer(self.encoder, buffer, 0, size).copy_from_slice(data);
+        let Some(size) = wgpu::BufferSize::new(data.len() as u64) else { return };
+        let part = self.belt.allocate(size, wgpu::BufferSize::MIN);
+        self.encoder.copy_buffer_to_buffer(part.buffer(), part.offset(), buffer, 0, size.get());
+        // Memory that is not there is that of a lost device, see `Gpu::check`.
+        if let Ok(mut memory) = part.get_mapped_range_mut() {
+            memory.copy_from_slice(data);
         }
+    }
+
+    /// The frame, to be noted by whoever keeps what it changes.
+    fn frame(&self) -> &Arc<Frame> {
+        &self.frame
     }
 
     /// A render pass, timed under its label, and its fragments counted where the recorder does
@@ -182,13 +210,21 @@ impl Passes<'_> {
 
     /// Ends the frame: times are on their way, upload memory comes back when the GPU is done with
     /// it.
-    pub fn finish(self) {
-        if let Some(timer) = self.timer {
+    pub fn finish(self) {}
+}
+
+impl Drop for Passes<'_> {
+    fn drop(&mut self) {
+        if let Some(timer) = &mut self.timer {
             timer.resolve(self.encoder);
         }
-        if let Some(counter) = self.counter {
+        if let Some(counter) = &mut self.counter {
             counter.resolve(self.encoder);
         }
+        let stamp = self.stamps.stamp(&self.frame);
+        self.upload(&stamp.buffer, &stamp.bytes());
+        stamp.read_on_submit(self.encoder);
         self.belt.finish_and_recall_on_submit(self.encoder);
+        self.gpu.unsettle();
     }
 }

@@ -21,10 +21,27 @@ pub(super) struct Queries<N> {
     sender: Arc<Mutex<mpsc::Sender<Frame<N>>>>,
 }
 
-/// A frame's answers on the way back: the mapped buffer and what they belong to.
+/// A frame's answers on the way back: the buffer, mapped where they have arrived, and what they
+/// belong to. Wherever it is dropped the buffer comes back.
 struct Frame<N> {
     buffer: wgpu::Buffer,
+    is_mapped: bool,
     names: Vec<N>,
+}
+
+/// A frame that is under way: an encoder that is dropped drops it.
+struct Underway<N> {
+    frame: Option<Frame<N>>,
+    sender: Arc<Mutex<mpsc::Sender<Frame<N>>>>,
+}
+
+impl<N> Drop for Underway<N> {
+    fn drop(&mut self) {
+        if let (Some(frame), Ok(sender)) = (self.frame.take(), self.sender.lock()) {
+            // The receiver is gone only when the queries are, and then nobody waits.
+            let _ = sender.send(frame);
+        }
+    }
 }
 
 impl<N: wgpu::WasmNotSend + 'static> Queries<N> {
@@ -74,12 +91,11 @@ impl<N: wgpu::WasmNotSend + 'static> Queries<N> {
         let bytes = u64::from(count) * 8;
         encoder.resolve_query_set(&self.set, 0..count, &self.resolved, 0);
         encoder.copy_buffer_to_buffer(&self.resolved, 0, &buffer, 0, bytes);
-        let frame = Frame { buffer: buffer.clone(), names: std::mem::take(&mut self.names) };
-        let sender = self.sender.clone();
+        let frame = Frame { buffer: buffer.clone(), is_mapped: false, names: std::mem::take(&mut self.names) };
+        let mut underway = Underway { frame: Some(frame), sender: self.sender.clone() };
         encoder.map_buffer_on_submit(&buffer, wgpu::MapMode::Read, 0..bytes, move |result| {
-            if let (Ok(()), Ok(sender)) = (result, sender.lock()) {
-                // The receiver is gone only when the queries are, and then nobody waits.
-                let _ = sender.send(frame);
+            if let Some(frame) = &mut underway.frame {
+                frame.is_mapped = result.is_ok();
             }
         });
         true
@@ -88,12 +104,14 @@ impl<N: wgpu::WasmNotSend + 'static> Queries<N> {
     /// The answers of the newest frame that have arrived since the last call.
     pub fn newest(&mut self) -> Option<(Vec<N>, Vec<u64>)> {
         let mut newest = None;
-        while let Ok(Frame { buffer, names }) = self.arrived.try_recv() {
-            let bytes = u64::from(self.each) * names.len() as u64 * 8;
-            if let Ok(range) = buffer.slice(0..bytes).get_mapped_range() {
-                newest = Some((names, bytemuck::pod_collect_to_vec(&range)));
+        while let Ok(Frame { buffer, is_mapped, names }) = self.arrived.try_recv() {
+            if is_mapped {
+                let bytes = u64::from(self.each) * names.len() as u64 * 8;
+                if let Ok(range) = buffer.slice(0..bytes).get_mapped_range() {
+                    newest = Some((names, bytemuck::pod_collect_to_vec(&range)));
+                }
+                buffer.unmap();
             }
-            buffer.unmap();
             self.spare.push(buffer);
         }
         newest

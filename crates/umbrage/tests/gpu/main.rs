@@ -9,6 +9,7 @@ mod filters;
 mod fragments;
 mod golden;
 mod host;
+mod hosts;
 mod layouts;
 mod lent;
 

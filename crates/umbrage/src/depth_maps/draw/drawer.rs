@@ -4,13 +4,17 @@ use super::cache::{Frame, Work};
 use super::layer::{Layer, Lists};
 use super::movers::Movers;
 use super::pipelines::{Kind, Pipelines};
-use super::submission::Submission;
 use super::textures::Textures;
 use super::view::MapView;
 use crate::casters::{self, Casters};
 use crate::depth_maps::frame::MapFrame;
 use crate::depth_maps::layers::Layers;
-use crate::{gpu::Gpu, passes::Passes, technique::Stats, view::View};
+use crate::{
+    gpu::Gpu,
+    passes::{Kept, Passes},
+    technique::Stats,
+    view::View,
+};
 use umbrage_core::light_view::{LightView, Omni};
 
 /// Textures, pipelines and what is known of the layers.
@@ -25,7 +29,7 @@ pub(in crate::depth_maps) struct Drawer {
     /// Keeps what did not change.
     cache: bool,
     movers: Movers,
-    submission: Submission,
+    kept: Kept,
     /// The last frame that was prepared was recorded as well.
     recorded: bool,
     triangles: u64,
@@ -42,7 +46,7 @@ impl Drawer {
             lists: Lists::new(midpoint),
             cache,
             movers: Movers::default(),
-            submission: Submission::default(),
+            kept: Kept::default(),
             recorded: false,
             triangles: 0,
         }
@@ -67,7 +71,8 @@ impl Drawer {
     /// Chooses what the layers draw, and makes room for it.
     pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, frame: &mut MapFrame) {
         let known = self.cache && self.movers.update(view.casters);
-        if !known || !std::mem::take(&mut self.recorded) || self.submission.was_dropped() {
+        // None of them is to be asked in vain.
+        if [known, std::mem::take(&mut self.recorded), self.kept.holds()].contains(&false) {
             self.forget();
         }
         let unseen = (0..).zip(&mut self.layers).filter(|(i, _)| !frame.views.iter().any(|view| view.layer == *i));
@@ -117,7 +122,7 @@ impl Drawer {
         let numbers = &self.lists.numbers;
         let worked = |view: &&LightView| self.layers[view.layer as usize].work != Work::Keep;
         if self.cache {
-            self.submission.watch(passes.encoder());
+            self.kept.note(passes);
         }
         numbers.upload(passes);
         for view in frame.views.iter().filter(worked) {

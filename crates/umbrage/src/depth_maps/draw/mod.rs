@@ -10,7 +10,6 @@ mod layer;
 mod layouts;
 mod movers;
 mod pipelines;
-mod submission;
 mod textures;
 mod view;
 

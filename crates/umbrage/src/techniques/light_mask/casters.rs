@@ -80,6 +80,16 @@ impl Trees {
         Ok(self.meshes.fit(gpu)? || top || placed)
     }
 
+    /// Has all uploaded again.
+    pub fn forget(&mut self) {
+        self.meshes.is_new = true;
+    }
+
+    /// Whether there is more to upload than every frame has.
+    pub fn is_new(&self) -> bool {
+        self.meshes.is_new
+    }
+
     /// Nodes and triangles of meshes, then the tree of casters and these.
     pub fn buffers(&self) -> [&wgpu::Buffer; 4] {
         [&self.meshes.nodes.buffer, &self.meshes.triangles.buffer, &self.top.buffer, &self.placed.buffer]

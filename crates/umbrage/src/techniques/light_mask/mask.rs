@@ -10,7 +10,13 @@ use crate::fullscreen::{Fullscreen, STORAGE, UNIFORM, bind, layout};
 use crate::receivers::Eye;
 use crate::receivers::Receivers;
 use crate::shader::Shader;
-use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+use crate::{
+    error::Error,
+    gpu::Gpu,
+    passes::{Kept, Passes},
+    view::View,
+    visibility::VisibilityTarget,
+};
 use umbrage_core::{LightShape, Texture};
 
 pub(super) const MASK_SHADER: Shader =
@@ -34,6 +40,8 @@ pub(super) struct Mask {
     /// With the vertices of the casters that they are trees of.
     trees: Option<(wgpu::Buffer, Trees)>,
     bind_group: Option<wgpu::BindGroup>,
+    /// Half planes and trees on the GPU.
+    kept: Kept,
 }
 
 impl Mask {
@@ -50,6 +58,7 @@ impl Mask {
             light: gpu.buffer("light", &[AreaLight::default()], uniform),
             eye: gpu.buffer("eye", &[Eye::default()], uniform),
             made_for: None,
+            kept: Kept::default(),
             half_planes: storage(gpu, "half planes", u64::from(TURNS * DISTANCES * words.div_ceil(4)) * 16),
             new_half_planes: None,
             trees: None,
@@ -64,8 +73,15 @@ impl Mask {
             self.trees = Some((positions.clone(), Trees::new(gpu, view.casters)));
             self.bind_group = None;
         }
+        let holds = self.kept.holds();
+        if !holds {
+            self.made_for = None;
+        }
         self.make_half_planes(view, form);
         let Some((_, trees)) = &mut self.trees else { return Ok(()) };
+        if !holds {
+            trees.forget();
+        }
         if trees.prepare(gpu, view, chosen)? || self.bind_group.is_none() {
             let [nodes, triangles, top, placed] = trees.buffers();
             let buffers = [&self.light, &self.eye, nodes, triangles, positions, top, placed, &self.half_planes];
@@ -127,6 +143,9 @@ impl Mask {
         let frame = Frame { rounding: ROUNDING, cap_chunks: 0, scale: 1, wedges: [0; 2] };
         passes.upload(&self.light, bytemuck::bytes_of(&form.uniform(view, &frame)));
         passes.upload(&self.eye, bytemuck::bytes_of(&Eye::new(view)));
+        if self.new_half_planes.is_some() || trees.is_new() {
+            self.kept.note(passes);
+        }
         if let Some(made) = self.new_half_planes.take() {
             passes.upload(&self.half_planes, bytemuck::cast_slice(&made));
         }
