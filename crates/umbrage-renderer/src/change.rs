@@ -2,7 +2,7 @@
 
 use crate::{LightPass, Renderer, light_of, lit::Target, no_pass, overlay::Overlay, targets::Targets, twice};
 use umbrage::{Casters, Error, Recorder, Settings, Technique};
-use umbrage_core::Light;
+use umbrage_core::{Camera, Light};
 
 impl Renderer {
     /// From the next frame on makes pictures of `width` × `height`. Pipelines, casters and
@@ -111,6 +111,17 @@ impl Renderer {
     /// Has every technique drop what it keeps from frame to frame, see [`umbrage::Inside::forget`].
     pub fn forget(&mut self) {
         self.lights.iter_mut().for_each(|light| light.technique.inside_mut().forget());
+    }
+
+    /// [`umbrage::warm_up`] for this renderer's frames: after it a technique of the same settings
+    /// compiles nothing for lights such as these.
+    ///
+    /// # Errors
+    /// As [`umbrage::warm_up`].
+    pub fn warm_up(&self, technique: &mut dyn Technique, lights: &[Light], camera: &Camera) -> Result<(), Error> {
+        let receivers = &self.targets.receivers;
+        let camera = camera.view(receivers.size.0, receivers.size.1);
+        umbrage::warm_up(&self.gpu, technique, lights, receivers, &camera)
     }
 
     /// The scene's geometry on the GPU, to move instances.

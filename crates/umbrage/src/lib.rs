@@ -66,6 +66,7 @@ mod technique;
 pub mod techniques;
 mod view;
 mod visibility;
+mod warm_up;
 
 pub use answer::{Answer, RadianceTarget};
 pub use casters::{Casters, SeenCasters};
@@ -87,6 +88,7 @@ pub use techniques::{RENAMED, Renamed};
 pub use umbrage_core as core;
 pub use view::View;
 pub use visibility::VisibilityTarget;
+pub use warm_up::warm_up;
 
 /// WGSL that passes of a host may share with the library.
 pub mod wgsl {

@@ -116,7 +116,7 @@ fn declared(info: &TechniqueInfo) -> u32 {
 }
 
 /// Lights of all kinds over the scene.
-fn lights() -> Vec<Light> {
+pub fn lights() -> Vec<Light> {
     let (position, direction) = (DVec3::new(0.5, 3.0, 0.5), DVec3::NEG_Y);
     let shapes = [
         LightShape::Point { position },

@@ -1,6 +1,7 @@
 //! What all techniques of a device share: the second light of a kind compiles nothing.
 
 use crate::common::{gpu, pairs, scene};
+use crate::limits::lights;
 use umbrage::core::glam::DVec3;
 use umbrage::core::{LightShape, Scene};
 use umbrage::{Gpu, techniques};
@@ -57,6 +58,50 @@ fn the_second_light_of_a_kind_compiles_nothing() {
         println!("{}: {before:?}", info.id);
         if before.pipelines == 0 || after != before {
             wrong.push(format!("{}: {before:?}, then {after:?}", info.id));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Scenes with all that casters and lights may be: one from beside, one from within a shadow.
+fn scenes() -> [Scene; 3] {
+    let mut contact = scene("contact", 0.3);
+    let mut dark = scene("contact", 0.3);
+    dark.camera.eye = dark.camera.target + DVec3::Y * 0.02;
+    contact.lights = lights();
+    [contact, scene("tentacles", 0.3), dark]
+}
+
+#[test]
+fn what_was_made_ahead_is_all_that_the_first_frame_needs() {
+    let scenes = scenes();
+    let mut wrong = Vec::new();
+    for info in techniques() {
+        let gpu = gpu();
+        let sized = info.params().iter().any(|param| param.name == "size");
+        let settings = |size: &str| info.settings(&pairs(if sized { size } else { "" })).unwrap();
+        for scene in &scenes {
+            for (light, of_scene) in scene.lights.iter().enumerate() {
+                if info.supports(of_scene.shape.kind()).is_err() {
+                    continue;
+                }
+                let technique = umbrage::baseline::floor(&gpu);
+                let mut renderer = Renderer::new(&gpu, scene, 48, 36, vec![LightPass { light, technique }]).unwrap();
+                renderer.frame(&scene.camera).unwrap();
+                let mut ahead = settings("size=64").make(&gpu).unwrap();
+                renderer.warm_up(&mut *ahead, std::slice::from_ref(of_scene), &scene.camera).unwrap();
+                drop(ahead);
+                let before = Made::on(&gpu);
+                let technique = settings("size=64").make(&gpu).unwrap();
+                renderer.exchange(0, LightPass { light, technique }).unwrap();
+                renderer.frame(&scene.camera).unwrap();
+                let after = Made::on(&gpu);
+                gpu.wait().unwrap();
+                if after != before {
+                    let of = format!("{} in {}, light {light}", info.id, scene.name);
+                    wrong.push(format!("{of}: {before:?}, then {after:?}"));
+                }
+            }
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
