@@ -19,6 +19,7 @@ impl Renderer {
         self.targets = Targets::new(&self.gpu, &self.shading, &self.tonemap, size)?;
         for lit in &mut self.lights {
             lit.target = Target::new(&self.gpu, &self.shading, lit.target.answer(), size)?;
+            lit.is_left_out = false;
         }
         if let Some(overlay) = &mut self.overlay {
             overlay.resize(&self.gpu, size)?;
@@ -93,6 +94,13 @@ impl Renderer {
         self.overlay = darkness.map(|d| Overlay::new(&self.gpu, self.targets.size(), d)).transpose()?;
         self.light_everything();
         Ok(())
+    }
+
+    /// From the next frame on leaves out lights that light nothing the camera sees, and shades no
+    /// more under each than the rectangle that it can light, as it does from the start; or, where
+    /// `clips` is false, does all of the work for every light, with the same picture: to compare.
+    pub fn set_clipping(&mut self, clips: bool) {
+        self.clips_lights = clips;
     }
 
     /// Leaves the visibility of every light at 1, since an overlay's lights shine everywhere.

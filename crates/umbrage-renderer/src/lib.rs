@@ -32,7 +32,7 @@ use shading::Shading;
 use targets::{PICTURE, Targets};
 use tonemap::ToneMap;
 use umbrage::{Casters, Error, Gpu, Owner, PassTime, Passes, Recorder, Shader, Stats, Technique};
-use umbrage_core::{Camera, Light, LightShape, Scene, Texture};
+use umbrage_core::{Camera, Light, LightShape, LitPart, Scene, Texture};
 use web_time::{Duration, Instant};
 
 /// Every shader of the renderer, for tests.
@@ -63,6 +63,7 @@ pub struct Renderer {
     ambient: [f32; 3],
     prepare_ms: f64,
     overlay: Option<Overlay>,
+    clips_lights: bool,
 }
 
 impl Renderer {
@@ -82,7 +83,7 @@ impl Renderer {
         }
         let lights = lights.into_iter().map(|LightPass { light, technique }| {
             let target = Target::new(gpu, &shading, technique.answer(), (width, height))?;
-            Ok(Lit { number: light, light: light_of(&scene.lights, light)?, technique, target })
+            Ok(Lit::new(light, light_of(&scene.lights, light)?, technique, target))
         });
         let textured = scene.lights.iter().any(|l| matches!(l.shape, LightShape::Rect { texture: Some(_), .. }));
         Ok(Self {
@@ -99,10 +100,13 @@ impl Renderer {
             ambient: scene.ambient.to_array(),
             prepare_ms: 0.0,
             overlay: None,
+            clips_lights: true,
         })
     }
 
-    /// Draws and submits one frame to [`Renderer::picture`], without waiting for it.
+    /// Draws and submits one frame to [`Renderer::picture`], without waiting for it. Lights that
+    /// light nothing the camera sees are left out: their techniques do nothing, and their counts
+    /// stay those of their last frame.
     ///
     /// # Errors
     /// What the techniques give; [`Error::DeviceLost`] and [`Error::Driver`].
@@ -146,26 +150,33 @@ impl Renderer {
         passes.owner(Owner::Host("gbuffer"));
         self.gbuffer.record(&self.gpu, &mut passes, gbuffer, &self.casters, &camera, self.ambient);
         let scene = Visible { camera, receivers, casters: &self.casters, textures: &self.textures };
-        let shade = |passes: &mut Passes<'_>, lit: &Lit| {
+        let size = receivers.size;
+        let shade = |passes: &mut Passes<'_>, lit: &Lit, part: LitPart| {
             passes.owner(Owner::Host("shading"));
-            self.shading.record(passes, &self.targets, &scene.view(&lit.light), &lit.target);
+            self.shading.record(passes, &self.targets, &scene.view(&lit.light), part.pixels(size), &lit.target);
         };
         let mut preparing = Duration::ZERO;
         if let Some(overlay) = &self.overlay {
             let start = Instant::now();
             overlay.find(&self.gpu, &mut passes, &scene, &mut self.lights)?;
             preparing += start.elapsed();
-            self.lights.iter().for_each(|lit| shade(&mut passes, lit));
+            self.lights.iter().for_each(|lit| shade(&mut passes, lit, LitPart::ALL));
             overlay.record(&mut passes, &gbuffer.radiance_view);
         } else {
             for lit in &mut self.lights {
                 passes.owner(Owner::Light(lit.number));
                 let view = scene.view(&lit.light);
+                let part = if self.clips_lights { view.lit_part() } else { Some(LitPart::ALL) };
+                let Some(part) = part else {
+                    lit.leave_out(&mut passes);
+                    continue;
+                };
+                lit.is_left_out = false;
                 let start = Instant::now();
                 let prepared = lit.technique.prepare(&self.gpu, &view)?;
                 preparing += start.elapsed();
                 lit.target.record(prepared, &mut passes)?;
-                shade(&mut passes, lit);
+                shade(&mut passes, lit, part);
             }
         }
         self.prepare_ms = preparing.as_secs_f64() * 1e3;

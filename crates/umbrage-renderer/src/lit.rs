@@ -13,6 +13,8 @@ pub(crate) struct Lit {
     pub light: Light,
     pub technique: Box<dyn Technique>,
     pub target: Target,
+    /// Says that the light lights nothing, since it is left out.
+    pub is_left_out: bool,
 }
 
 /// Where the answer of a technique goes, and what reads it there.
@@ -54,6 +56,22 @@ impl Target {
 }
 
 impl Lit {
+    /// A light of the scene.
+    pub fn new(number: usize, light: Light, technique: Box<dyn Technique>, target: Target) -> Self {
+        Self { number, light, technique, target, is_left_out: false }
+    }
+
+    /// Has its target say that it is all lit, and gives nothing, as it does where light ends.
+    pub fn leave_out(&mut self, passes: &mut Passes<'_>) {
+        if !std::mem::replace(&mut self.is_left_out, true) {
+            let cleared = match &self.target {
+                Target::Visibility(target, _) => target.overwrite(),
+                Target::Radiance(target, _) => target.overwrite(),
+            };
+            passes.render("left out", &[cleared], None);
+        }
+    }
+
     /// Gives the light another technique and returns the one that it had. The target stays where it
     /// does for both.
     pub fn exchange(
@@ -65,6 +83,7 @@ impl Lit {
     ) -> Result<Box<dyn Technique>, Error> {
         if technique.answer() != self.target.answer() {
             self.target = Target::new(gpu, shading, technique.answer(), size)?;
+            self.is_left_out = false;
         }
         Ok(std::mem::replace(&mut self.technique, technique))
     }

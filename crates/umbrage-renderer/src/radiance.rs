@@ -32,8 +32,15 @@ impl RadiancePass {
         bind(gpu, "radiance", &self.layout, &[wgpu::BindingResource::TextureView(&radiance.view)])
     }
 
-    pub fn record(&self, passes: &mut Passes<'_>, picture: &wgpu::TextureView, bind_group: &wgpu::BindGroup) {
+    pub fn record(
+        &self,
+        passes: &mut Passes<'_>,
+        picture: &wgpu::TextureView,
+        [x, y, width, height]: [u32; 4],
+        bind_group: &wgpu::BindGroup,
+    ) {
         let mut pass = passes.render("radiance", &[attachment(picture, wgpu::LoadOp::Load)], None);
+        pass.set_scissor_rect(x, y, width, height);
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, bind_group, &[]);
         pass.draw(0..3, 0..1);

@@ -76,18 +76,33 @@ impl Shading {
         Slot { uniforms, bind_group }
     }
 
-    /// Adds the light of `view`, by the answer of its technique.
-    pub fn record(&self, passes: &mut Passes<'_>, targets: &Targets, view: &View<'_>, answer: &Target) {
+    /// Adds the light of `view` within these pixels, by the answer of its technique.
+    pub fn record(
+        &self,
+        passes: &mut Passes<'_>,
+        targets: &Targets,
+        view: &View<'_>,
+        pixels: [u32; 4],
+        answer: &Target,
+    ) {
         match answer {
-            Target::Visibility(_, slot) => self.record_light(passes, targets, view, slot),
-            Target::Radiance(_, read) => self.radiance.record(passes, &targets.gbuffer.radiance_view, read),
+            Target::Visibility(_, slot) => self.record_light(passes, targets, view, pixels, slot),
+            Target::Radiance(_, read) => self.radiance.record(passes, &targets.gbuffer.radiance_view, pixels, read),
         }
     }
 
-    fn record_light(&self, passes: &mut Passes<'_>, targets: &Targets, view: &View<'_>, slot: &Slot) {
+    fn record_light(
+        &self,
+        passes: &mut Passes<'_>,
+        targets: &Targets,
+        view: &View<'_>,
+        [x, y, width, height]: [u32; 4],
+        slot: &Slot,
+    ) {
         passes.upload(&slot.uniforms, bytemuck::bytes_of(&light_uniforms(view)));
         let target = attachment(&targets.gbuffer.radiance_view, wgpu::LoadOp::Load);
         let mut pass = passes.render("light", &[target], None);
+        pass.set_scissor_rect(x, y, width, height);
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, view.receivers.bind_group(), &[]);
         pass.set_bind_group(1, &targets.surface, &[]);

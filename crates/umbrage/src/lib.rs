@@ -52,6 +52,7 @@ mod light_samples;
 mod moment_maps;
 mod passes;
 mod planar;
+mod pool;
 mod prepared;
 #[cfg(test)]
 mod probe;
@@ -75,6 +76,7 @@ pub use gpu::{AdapterSummary, Gpu};
 pub use inline::{Binding, Followed, Inline, Lent, Resource};
 pub use light_samples::light_samples;
 pub use passes::{Kept, Owner, Pass, PassFragments, PassTime, Passes, Recorder};
+pub use pool::{MapPool, PooledLight};
 pub use prepared::Prepared;
 pub use receivers::{Eye, Receivers};
 pub use registry::{Filter, FilterId, FilterUse, Registry, find, parse, techniques};

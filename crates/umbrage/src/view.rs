@@ -2,7 +2,7 @@
 
 use crate::{casters::Casters, receivers::Receivers};
 use umbrage_core::glam::{DMat4, DVec3, DVec4};
-use umbrage_core::{Bounds, CameraView, Frustum, Light, Texture};
+use umbrage_core::{Bounds, CameraView, Frustum, Light, LitPart, Texture, lit_part};
 
 /// Camera, receivers, casters and the one light whose visibility is asked for.
 #[derive(Clone, Copy)]
@@ -26,6 +26,20 @@ impl View<'_> {
     pub fn clip_from_eye(&self) -> DMat4 {
         let rotation = DMat4::from_mat3(self.camera.view_from_world.matrix3);
         self.camera.clip_from_view * rotation
+    }
+
+    /// The part of the picture in which the light can light anything, as far as its range, its cone
+    /// and the instances tell. `None` where it lights nothing that is seen: a host may leave out
+    /// such a light altogether, and shade no more than this part under others.
+    ///
+    /// What is no instance counts only where the casters know of it.
+    pub fn lit_part(&self) -> Option<LitPart> {
+        lit_part(self.light, &self.camera, &self.casters.all_bounds())
+    }
+
+    /// The same as pixels: the first across and down, and how many of each.
+    pub(crate) fn lit_pixels(&self) -> [u32; 4] {
+        self.lit_part().map_or([0; 4], |part| part.pixels(self.receivers.size))
     }
 
     /// A box around what the camera sees of the receivers.

@@ -52,19 +52,14 @@ pub fn warm_up(
     receivers: &Receivers,
     camera: &CameraView,
 ) -> Result<(), Error> {
-    let scene = world();
-    let world = World {
-        casters: Casters::new(gpu, &scene)?,
-        receivers: receivers.small_copy(gpu, SIZE)?,
-        visibility: VisibilityTarget::new(gpu, SIZE.0, SIZE.1)?,
-        radiance: RadianceTarget::new(gpu, SIZE.0, SIZE.1)?,
-        textures: scene.textures,
-    };
-    for (eye, target) in EYES {
-        let looking = Camera { eye, target, ..Camera::default() };
-        let camera = CameraView::from_matrices(looking.view_from_world(), camera.clip_from_view);
-        for light in lights {
-            world.draw(gpu, technique, &above(light), camera)?;
+    for is_crowded in [false, true] {
+        let world = World::new(gpu, receivers, is_crowded)?;
+        for (eye, target) in EYES {
+            let looking = Camera { eye, target, ..Camera::default() };
+            let camera = CameraView::from_matrices(looking.view_from_world(), camera.clip_from_view);
+            for light in lights {
+                world.draw(gpu, technique, &above(light), camera)?;
+            }
         }
     }
     gpu.check()
@@ -80,6 +75,17 @@ struct World {
 }
 
 impl World {
+    fn new(gpu: &Gpu, receivers: &Receivers, is_crowded: bool) -> Result<Self, Error> {
+        let scene = scene(is_crowded);
+        Ok(Self {
+            casters: Casters::new(gpu, &scene)?,
+            receivers: receivers.small_copy(gpu, SIZE)?,
+            visibility: VisibilityTarget::new(gpu, SIZE.0, SIZE.1)?,
+            radiance: RadianceTarget::new(gpu, SIZE.0, SIZE.1)?,
+            textures: scene.textures,
+        })
+    }
+
     fn draw(&self, gpu: &Gpu, technique: &mut dyn Technique, light: &Light, camera: CameraView) -> Result<(), Error> {
         let Self { casters, receivers, textures, .. } = self;
         let view = View { camera, receivers, casters, light, textures };
@@ -100,8 +106,9 @@ impl World {
     }
 }
 
-/// A floor, a closed caster over it, an open one, one with an alpha mask and one that is posed.
-fn world() -> Scene {
+/// A floor, a closed caster over it, an open one, one with an alpha mask and one that is posed. In a
+/// crowd a point may be in more shadows than a stencil counts.
+fn scene(is_crowded: bool) -> Scene {
     let mut scene = Scene { rigs: vec![rig()], ..Scene::default() };
     let white =
         Texture { name: "white".into(), width: 1, height: 1, rgba: vec![[255; 4]], sampling: Default::default() };
@@ -121,6 +128,9 @@ fn world() -> Scene {
     scene.place(plane, plain, at(2.0, 1.0, 1.0));
     scene.place(plane, masked, at(-2.0, 1.0, 1.0));
     scene.place(bent, plain, at(3.5, 1.0, 0.5)).pose = Some(Pose { rig: 0, skin: 0, moment: None });
+    for _ in 0..if is_crowded { 256 } else { 0 } {
+        scene.place(cube, plain, at(6.0, 0.5, 0.1));
+    }
     scene
 }
 

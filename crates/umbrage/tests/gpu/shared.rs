@@ -3,7 +3,7 @@
 use crate::common::{gpu, pairs, scene};
 use crate::limits::lights;
 use umbrage::core::glam::DVec3;
-use umbrage::core::{LightShape, Scene};
+use umbrage::core::{Light, LightShape, Scene};
 use umbrage::{Gpu, techniques};
 use umbrage_renderer::{LightPass, Renderer};
 
@@ -79,30 +79,30 @@ fn what_was_made_ahead_is_all_that_the_first_frame_needs() {
     for info in techniques() {
         let gpu = gpu();
         let sized = info.params().iter().any(|param| param.name == "size");
-        let settings = |size: &str| info.settings(&pairs(if sized { size } else { "" })).unwrap();
-        for scene in &scenes {
-            for (light, of_scene) in scene.lights.iter().enumerate() {
-                if info.supports(of_scene.shape.kind()).is_err() {
-                    continue;
-                }
-                let technique = umbrage::baseline::floor(&gpu);
-                let mut renderer = Renderer::new(&gpu, scene, 48, 36, vec![LightPass { light, technique }]).unwrap();
-                renderer.frame(&scene.camera).unwrap();
-                let mut ahead = settings("size=64").make(&gpu).unwrap();
-                renderer.warm_up(&mut *ahead, std::slice::from_ref(of_scene), &scene.camera).unwrap();
-                drop(ahead);
-                let before = Made::on(&gpu);
-                let technique = settings("size=64").make(&gpu).unwrap();
-                renderer.exchange(0, LightPass { light, technique }).unwrap();
+        let settings = info.settings(&pairs(if sized { "size=64" } else { "" })).unwrap();
+        let floor = || LightPass { light: 0, technique: umbrage::baseline::floor(&gpu) };
+        let renderers = scenes.each_ref().map(|scene| {
+            let mut renderer = Renderer::new(&gpu, scene, 32, 24, vec![floor()]).unwrap();
+            renderer.frame(&scene.camera).unwrap();
+            renderer
+        });
+        let does = |light: &&Light| info.supports(light.shape.kind()).is_ok();
+        let lights: Vec<Light> = lights().iter().filter(does).cloned().collect();
+        let mut ahead = settings.make(&gpu).unwrap();
+        renderers[0].warm_up(&mut *ahead, &lights, &scenes[0].camera).unwrap();
+        let before = Made::on(&gpu);
+        for (mut renderer, scene) in renderers.into_iter().zip(&scenes) {
+            for (light, of_scene) in scene.lights.iter().enumerate().filter(|(_, light)| does(light)) {
+                renderer.exchange(0, LightPass { light, technique: settings.make(&gpu).unwrap() }).unwrap();
                 renderer.frame(&scene.camera).unwrap();
                 let after = Made::on(&gpu);
-                gpu.wait().unwrap();
                 if after != before {
-                    let of = format!("{} in {}, light {light}", info.id, scene.name);
-                    wrong.push(format!("{of}: {before:?}, then {after:?}"));
+                    let kind = of_scene.shape.kind().name();
+                    wrong.push(format!("{} in {}, {kind}: {before:?}, then {after:?}", info.id, scene.name));
                 }
             }
         }
+        gpu.wait().unwrap();
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -43,6 +43,8 @@ pub(crate) struct LookupInput {
     bias: Bias,
     uniforms: wgpu::Buffer,
     data: MapLookup,
+    /// The pixels that the light can light: the first, and how many.
+    pixels: [u32; 4],
     bind_group: Option<(wgpu::Texture, wgpu::BindGroup)>,
     /// Number of the pipelines; `None` where there is nothing to look up.
     pub(super) current: Option<usize>,
@@ -127,6 +129,7 @@ impl Lookup {
         input.in_eye.data = MapLookup::new(view, maps, input.bias, Space::Eye);
         let Some(texture) = maps.texture.as_ref().filter(|_| !maps.views.is_empty()) else { return };
         input.data = MapLookup::new(view, maps, input.bias, Space::Ndc);
+        input.pixels = view.lit_pixels();
         let perspective = maps.is_from_a_point();
         let linear = maps.is_linear;
         let round = is_round(&view.light.shape);
@@ -147,7 +150,8 @@ impl Lookup {
         }
     }
 
-    /// Writes 1 everywhere where there is nothing to look up. `more` is what the technique binds as
+    /// Writes 1 where the light lights nothing, and everywhere where there is nothing to look up.
+    /// `more` is what the technique binds as
     /// group 2. Returns the number of draws.
     pub fn record(
         &self,
@@ -159,7 +163,14 @@ impl Lookup {
     ) -> u32 {
         let open = if self.draws(input).len() > 1 { self.open.attachment() } else { None };
         let mut pass = passes.render("visibility", &[visibility.overwrite()], open);
-        let draws = self.draw(&mut pass, receivers, input, more);
+        let [x, y, width, height] = input.pixels;
+        let lights_some = width > 0 && height > 0;
+        let draws = if lights_some {
+            pass.set_scissor_rect(x, y, width, height);
+            self.draw(&mut pass, receivers, input, more)
+        } else {
+            0
+        };
         drop(pass);
         if let Some(pictures) = &self.pictures {
             let own = input.bind_group.as_ref().map(|(_, bind_group)| bind_group);
@@ -249,6 +260,7 @@ impl LookupInput {
             bias,
             uniforms: gpu.buffer("map lookup", &[MapLookup::default()], usage),
             data: MapLookup::default(),
+            pixels: [0; 4],
             bind_group: None,
             current: None,
             in_eye: InEye::new(gpu),
