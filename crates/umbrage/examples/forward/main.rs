@@ -4,7 +4,7 @@
 //!     cargo run -p umbrage --example forward -- picture.png
 
 mod host;
-pub mod things;
+pub(crate) mod things;
 
 use host::Host;
 pub use host::Shown;
