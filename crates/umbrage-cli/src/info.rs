@@ -5,7 +5,7 @@ use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
 use umbrage_core::mesh_check::{MeshReport, check_scene};
-use umbrage_core::{Instance, Light, Scene, glam::DVec3};
+use umbrage_core::{Camera, Instance, Light, Scene, glam::DVec3};
 use umbrage_report::Source;
 
 /// Shows what a scene holds: triangles, lights, bounds, and faults of its meshes
@@ -85,12 +85,19 @@ fn as_json(source: &Source, report: &MeshReport) -> String {
         "textures": scene.textures.len(),
         "bounds": { "min": bounds.min.to_array(), "max": bounds.max.to_array() },
         "camera": { "eye": scene.camera.eye.to_array(), "target": scene.camera.target.to_array(),
-                    "fov_y_deg": scene.camera.fov_y_deg, "near": scene.camera.near },
+                    "fov_y_deg": scene.camera.fov_y_deg, "near": scene.camera.near,
+                    "height": scene.camera.parallel.map(|p| p.height), "far": scene.camera.parallel.map(|p| p.far) },
         "lights": scene.lights.iter().enumerate().map(light).collect::<Vec<Value>>(),
         "mesh_check": mesh,
         "notes": notes(source),
     });
     format!("{all:#}\n")
+}
+
+/// What fits into the picture from bottom to top.
+fn height_of(camera: &Camera) -> String {
+    let angle = || format!("{:.1}° high", camera.fov_y_deg);
+    camera.parallel.map_or_else(angle, |p| format!("{:.3} m high, parallel lines of sight", p.height))
 }
 
 fn as_text(source: &Source, report: &MeshReport) -> String {
@@ -110,7 +117,7 @@ fn as_text(source: &Source, report: &MeshReport) -> String {
     text += &row("bounds", format!("{} to {}, metres", vector(bounds.min), vector(bounds.max)));
     text += &row(
         "camera",
-        format!("{} to {}, {:.1}° high", vector(scene.camera.eye), vector(scene.camera.target), scene.camera.fov_y_deg),
+        format!("{} to {}, {}", vector(scene.camera.eye), vector(scene.camera.target), height_of(&scene.camera)),
     );
     for (i, light) in scene.lights.iter().enumerate() {
         let center = light.shape.center();

@@ -21,7 +21,6 @@ pub mod facets;
 pub mod frustum;
 pub mod image;
 pub mod light;
-mod light_check;
 mod light_reach;
 pub mod light_view;
 pub mod lit_part;
@@ -45,7 +44,7 @@ pub mod wedge;
 mod weld;
 
 pub use bounds::Bounds;
-pub use camera::{Camera, CameraView};
+pub use camera::{Camera, CameraView, Parallel};
 pub use frustum::Frustum;
 pub use image::Image;
 pub use light::{Light, LightKind, LightKinds, LightShape};

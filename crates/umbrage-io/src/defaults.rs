@@ -25,6 +25,7 @@ pub(crate) fn add_camera(scene: &mut Scene, notes: &mut Vec<String>) {
         up: DVec3::Y,
         fov_y_deg: FOV_Y,
         near: distance * 0.01,
+        ..Camera::default()
     };
     notes.push("no camera in the file: made a three-quarter view from the bounds".to_owned());
 }

@@ -53,10 +53,11 @@ impl Frame {
         (self.edges.get(at.0, at.1) == Some(&false)).then_some(f64::from(depth))
     }
 
-    /// The direction through a pixel's centre; 1 along the view.
-    fn ray(&self, (x, y): (u32, u32)) -> DVec3 {
+    /// The start of the ray through a pixel's centre and its direction; 1 along the view.
+    fn ray(&self, (x, y): (u32, u32)) -> (DVec3, DVec3) {
         let (width, height) = self.depth.size();
-        self.camera.ray(DVec2::new(f64::from(x), f64::from(y)) + 0.5, width, height)
+        let pixel = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
+        (self.camera.start(pixel, width, height), self.camera.ray(pixel, width, height))
     }
 }
 
@@ -68,7 +69,8 @@ pub fn fixed_points(before: &Frame, after: &Frame) -> Vec<FixedPoint> {
     let mut points = Vec::new();
     for pixel in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
         let Some(depth) = before.depth(pixel) else { continue };
-        let point = before.camera.eye + before.ray(pixel) * depth;
+        let (start, ray) = before.ray(pixel);
+        let point = start + ray * depth;
         let clip = clip_from_world * point.extend(1.0);
         if clip.w <= 0.0 {
             continue;
@@ -89,7 +91,8 @@ fn is_same_surface(before: &Frame, after: &Frame, found: &FixedPoint, point: DVe
     let Some(depth) = after.depth(found.after) else { return false };
     let (normal, next) = (before.normal[found.before], after.normal[found.after]);
     let plane = normal.as_dvec3();
-    let expected = (point - after.camera.eye).dot(plane) / after.ray(found.after).dot(plane);
+    let (start, ray) = after.ray(found.after);
+    let expected = (point - start).dot(plane) / ray.dot(plane);
     (depth - expected).abs() <= SAME_DEPTH * depth && normal.dot(next) >= SAME_NORMAL
 }
 

@@ -27,7 +27,7 @@ pub fn texel_footprint(
             return 0.0;
         }
         let pixel = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-        let point = camera.eye + camera.ray(pixel, width, height) * depth;
+        let point = camera.start(pixel, width, height) + camera.ray(pixel, width, height) * depth;
         let texel = texel_on_screen(views, splits, &view, (width, height), point, normal[(x, y)].as_dvec3());
         texel.unwrap_or(0.0) as f32
     })

@@ -21,7 +21,8 @@ pub fn around_borders(views: &[LightView], splits: &[f64], camera: &Camera, dept
     Image::from_fn(width, height, |x, y| {
         let pixel = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
         let ray = camera.ray(pixel, width, height) * f64::from(depth[(x, y)]);
-        let layer = |share: f64| view_at(views, splits, &view, camera.eye + ray * share).map(|v| v.layer);
+        let start = camera.start(pixel, width, height);
+        let layer = |share: f64| view_at(views, splits, &view, start + ray * share).map(|v| v.layer);
         let [nearer, farther] = [layer(1.0 / (1.0 + BAND)), layer(1.0 / (1.0 - BAND))];
         depth[(x, y)] > 0.0 && !splits.is_empty() && nearer.zip(farther).is_some_and(|(a, b)| a != b)
     })

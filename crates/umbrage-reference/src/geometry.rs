@@ -61,7 +61,8 @@ impl Tracer {
         let rows = (0..height).into_par_iter().flat_map_iter(|y| {
             (0..width).map(move |x| {
                 let pixel = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
-                mask[(x, y)].then(|| self.look(camera, camera.ray(pixel, width, height))).flatten()
+                let ray = (camera.start(pixel, width, height), camera.ray(pixel, width, height));
+                mask[(x, y)].then(|| self.look(ray, camera.near)).flatten()
             })
         });
         let shown: Vec<Option<Shown>> = rows.collect();
@@ -74,13 +75,12 @@ impl Tracer {
         }
     }
 
-    fn look(&self, camera: &Camera, direction: DVec3) -> Option<Shown> {
-        let eye = camera.eye - self.center;
-        let (triangle, depth) = self.first(eye, direction, camera.near)?;
+    fn look(&self, (start, direction): (DVec3, DVec3), near: f64) -> Option<Shown> {
+        let (triangle, depth) = self.first(start - self.center, direction, near)?;
         let instance = self.instance(triangle.id);
         let normal = triangle.unit_normal();
         let surface = Surface {
-            position: camera.eye + direction * depth,
+            position: start + direction * depth,
             normal: if normal.dot(direction) > 0.0 { -normal } else { normal },
             casts: instance.casts,
             triangle: Some(triangle.id),

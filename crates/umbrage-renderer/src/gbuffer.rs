@@ -16,6 +16,8 @@ shader_struct! {
         spare: f32,
         ambient: [f32; 3],
         more_spare: f32,
+        sight: [f32; 3],
+        last_spare: f32,
     }
 }
 
@@ -57,6 +59,7 @@ impl GBufferPass {
             clip_from_world: clip_from_world.as_mat4().to_cols_array_2d(),
             eye: (camera.eye - casters.origin()).as_vec3().to_array(),
             ambient,
+            sight: if camera.is_parallel() { camera.forward().as_vec3().to_array() } else { [0.0; 3] },
             ..GBufferView::default()
         };
         passes.upload(&self.uniforms, bytemuck::bytes_of(&data));

@@ -8,6 +8,9 @@ struct GBufferView {
     spare: f32,
     ambient: vec3f,
     more_spare: f32,
+    // Along the view where lines of sight are parallel; else zero.
+    sight: vec3f,
+    last_spare: f32,
 }
 
 @group(0) @binding(0) var<uniform> gbuffer_view: GBufferView;
@@ -53,8 +56,9 @@ fn targets(in: Surface, base: vec4f) -> Targets {
     // line of sight.
     let cross_product = cross(dpdx(in.from_eye), dpdy(in.from_eye));
     let area = length(cross_product);
-    let face = select(-normalize(in.from_eye), cross_product / area, area > 0.0);
-    let geometric = select(face, -face, dot(face, in.from_eye) > 0.0);
+    let sight = select(in.from_eye, gbuffer_view.sight, any(gbuffer_view.sight != vec3f(0.0)));
+    let face = select(-normalize(sight), cross_product / area, area > 0.0);
+    let geometric = select(face, -face, dot(face, sight) > 0.0);
     let steepness = length(in.normal);
     let smooth_normal = select(geometric, in.normal / steepness, steepness > 0.0);
     let shading = select(smooth_normal, -smooth_normal, dot(smooth_normal, geometric) < 0.0);

@@ -57,7 +57,7 @@ fn shade(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let n = shading.xyz;
     let diffuse = max(dot(n, l), 0.0);
     let mirrored = 2.0 * dot(n, l) * n - l;
-    let toward_eye = max(dot(mirrored, -normalize(position)), 0.0);
+    let toward_eye = max(dot(mirrored, -normalize(line_of_sight(light.eye, at.xy))), 0.0);
     let specular = select(0.0, color.w * pow(toward_eye, abs(shading.w)), diffuse > 0.0 && color.w > 0.0);
     return vec4f(attenuation * visibility * light.color * (color.rgb * diffuse + specular), 0.0);
 }

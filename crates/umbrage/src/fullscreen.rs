@@ -69,6 +69,11 @@ pub fn additive(format: wgpu::TextureFormat) -> wgpu::ColorTargetState {
     wgpu::ColorTargetState { blend: Some(wgpu::BlendState { color: add, alpha: add }), ..format.into() }
 }
 
+/// How front faces are wound on the screen.
+pub(crate) fn front_face(is_mirrored: bool) -> wgpu::FrontFace {
+    if is_mirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw }
+}
+
 /// A colour attachment over a whole view.
 pub fn attachment(
     view: &wgpu::TextureView,

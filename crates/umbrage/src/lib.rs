@@ -42,8 +42,8 @@ mod area_light;
 pub mod baseline;
 mod bvh;
 mod casters;
-mod checked;
 mod compute;
+mod deliver;
 pub mod depth_maps;
 mod error;
 pub mod fullscreen;
@@ -60,6 +60,7 @@ mod probe;
 pub mod read;
 mod receivers;
 mod registry;
+mod resolve;
 mod settings;
 mod shader;
 mod silhouettes;
@@ -72,6 +73,7 @@ mod warm_up;
 
 pub use answer::{Answer, RadianceTarget};
 pub use casters::{Casters, SeenCasters};
+pub use deliver::{Coarse, Deliver, Upsample};
 pub use error::{Error, nearest};
 pub use gpu::{AdapterSummary, Gpu};
 pub use inline::{Binding, Followed, Inline, Lent, Resource};
@@ -81,6 +83,7 @@ pub use pool::{MapPool, PooledLight};
 pub use prepared::Prepared;
 pub use receivers::{Eye, Receivers};
 pub use registry::{Filter, FilterId, FilterUse, Registry, find, parse, techniques};
+pub use resolve::{HostDepth, Part, Resolve, StoredDepth};
 #[doc(hidden)]
 pub use settings::declare;
 pub use settings::{Configure, Group, Param, ParamKind, Setting, Settings, Value, read as read_settings};
@@ -101,7 +104,13 @@ pub mod wgsl {
 /// Every shader of the library: those of the techniques, the adaptor, poses and the baselines.
 pub fn shaders() -> Vec<Shader> {
     let own = techniques().iter().flat_map(|t| t.shaders);
-    own.chain([&light_samples::SHADER]).chain(casters::SHADERS).chain(baseline::SHADERS).copied().collect()
+    own.chain([&light_samples::SHADER])
+        .chain(casters::SHADERS)
+        .chain(baseline::SHADERS)
+        .chain(&resolve::SHADERS)
+        .chain(&deliver::SHADERS)
+        .copied()
+        .collect()
 }
 
 /// What the host has to agree on with the library's modules of WGSL, whatever shader needs them.

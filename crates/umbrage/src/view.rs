@@ -24,8 +24,7 @@ impl View<'_> {
     /// Working relative to the eye keeps single precision exact near the camera, however far that
     /// is from the origin.
     pub fn clip_from_eye(&self) -> DMat4 {
-        let rotation = DMat4::from_mat3(self.camera.view_from_world.matrix3);
-        self.camera.clip_from_view * rotation
+        clip_from_eye(&self.camera)
     }
 
     /// The part of the picture in which the light can light anything, as far as its range, its cone
@@ -70,6 +69,11 @@ impl View<'_> {
         });
         Bounds::of(near).with(self.camera.eye)
     }
+}
+
+/// As [`View::clip_from_eye`].
+pub(crate) fn clip_from_eye(camera: &CameraView) -> DMat4 {
+    camera.clip_from_view * DMat4::from_mat3(camera.view_from_world.matrix3)
 }
 
 /// A light at exactly the place of a vertex has no direction to cast it in. Moved by less than

@@ -1,7 +1,7 @@
 //! The visibility buffer: the one thing every technique writes.
 
 use crate::fullscreen::{attachment, target_texture};
-use crate::receivers::{Receivers, check_texture};
+use crate::receivers::{Receivers, check::check_texture};
 use crate::{error::Error, gpu::Gpu};
 
 /// The share of one light that each pixel sees, 0…1, as `R16Float`. PX calls it the LI buffer, SG

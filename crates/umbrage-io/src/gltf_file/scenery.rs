@@ -36,7 +36,7 @@ pub(super) fn read_camera(file: &mut File<'_>, model: &mut Model, node: &Node<'_
         return;
     }
     let eye = model_from_node.translation;
-    model.camera = Some(Camera { eye, target: eye + forward, up, fov_y_deg, near });
+    model.camera = Some(Camera { eye, target: eye + forward, up, fov_y_deg, near, ..Camera::default() });
 }
 
 /// Adds the light of a node, if it has one.

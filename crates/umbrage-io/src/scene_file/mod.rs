@@ -53,7 +53,7 @@ pub(crate) fn read(text: &str, dir: &Path, file: &Path) -> Result<Opened, Error>
 }
 
 fn read_camera(table: &Table<'_>) -> Result<Camera, Error> {
-    table.check_keys(&[&["eye", "target", "up", "fov_y", "near"]])?;
+    table.check_keys(&[&["eye", "target", "up", "fov_y", "height", "near", "far"]])?;
     let (eye, target) = (table.require("eye")?.vec3()?, table.require("target")?);
     let view = target.vec3()? - eye;
     let Some(forward) = view.try_normalize() else {
@@ -66,11 +66,33 @@ fn read_camera(table: &Table<'_>) -> Result<Camera, Error> {
         let error = table.get("up").map_or_else(|| table.error(what), |v| v.error("lies along the line of sight"));
         return Err(error.remedy("give another `up`, such as [0.0, 0.0, -1.0]"));
     }
+    let camera = Camera { eye, target: target.vec3()?, up, ..default };
+    if let Some(height) = table.get("height") {
+        return read_parallel(table, camera, &height);
+    }
+    if let Some(far) = table.get("far") {
+        let error = far.error("is for cameras with parallel lines of sight, which have a `height`");
+        return Err(error.remedy("leave it out: the far plane is at infinity"));
+    }
     let fov_y = table.require("fov_y")?;
     let fov_y_deg = fov_y.number()?;
     if !(0.0 < fov_y_deg && fov_y_deg < 180.0) {
         return Err(fov_y.error(format!("must be over 0 and below 180 degrees, not {fov_y_deg}")));
     }
-    let near = table.get_or("near", default.near, Value::positive)?;
-    Ok(Camera { eye, target: target.vec3()?, up, fov_y_deg, near })
+    let near = table.get_or("near", camera.near, Value::positive)?;
+    Ok(Camera { fov_y_deg, near, ..camera })
+}
+
+/// A camera with parallel lines of sight; `near` and `far` may be behind `eye`.
+fn read_parallel(table: &Table<'_>, camera: Camera, height: &Value<'_>) -> Result<Camera, Error> {
+    if let Some(fov_y) = table.get("fov_y") {
+        let error = fov_y.error("and `height` are both given: lines of sight meet in the eye or are parallel");
+        return Err(error.remedy("leave one of them out"));
+    }
+    let near = table.get_or("near", camera.near, Value::number)?;
+    let far = table.require("far")?;
+    if far.number()? <= near {
+        return Err(far.error(format!("must be over `near`, which is {near}")));
+    }
+    Ok(camera.with_parallel(height.positive()?, near, far.number()?))
 }

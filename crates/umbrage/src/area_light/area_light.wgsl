@@ -36,6 +36,10 @@ struct AreaLight {
     cell: vec4f,
     cell_sides: vec4f,
     cell_arc: vec4f,
+    // Where lines of sight start, relative to the eye and homogeneous: there, or for parallel ones
+    // infinitely far away.
+    toward_eye: vec3f,
+    eye_w: f32,
 }
 
 // A piece of a disc or a sphere under one caster.

@@ -29,6 +29,8 @@ shader_struct! {
         cell: [f32; 4],
         cell_sides: [f32; 4],
         cell_arc: [f32; 4],
+        toward_eye: [f32; 3],
+        eye_w: f32,
     }
 }
 
@@ -67,6 +69,8 @@ impl Form {
         let corner = |p: DVec3| p.extend(0.0).as_vec4().to_array();
         let clip = raster(view.receivers.size, frame.scale) * view.clip_from_eye();
         let cell = self.cell.unwrap_or_else(|| Cell::grid(1)[0]);
+        let is_parallel = view.camera.is_parallel();
+        let start = if is_parallel { (-view.camera.forward()).extend(0.0) } else { DVec4::W };
         let singles = |v: [f64; 4]| v.map(|c| c as f32);
         AreaLight {
             clip_from_eye: clip.as_mat4().to_cols_array_2d(),
@@ -89,6 +93,8 @@ impl Form {
             cell: singles([cell.low[0], cell.low[1], cell.high[0], cell.high[1]]),
             cell_sides: singles(cell.sides),
             cell_arc: singles([cell.arc_middle[0], cell.arc_middle[1], cell.arc, cell.around]),
+            toward_eye: start.truncate().as_vec3().to_array(),
+            eye_w: start.w as f32,
         }
     }
 }

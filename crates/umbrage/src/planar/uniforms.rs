@@ -78,7 +78,9 @@ impl PlaneFinder {
         let eye = view.camera.eye - view.casters.origin();
         let of_eye = Eye::new(view);
         let mut finder = Self {
-            rounding: of_eye.reach * if view.receivers.has_normals { ROUNDING } else { 8.0 * ROUNDING },
+            rounding: of_eye.coarseness
+                * of_eye.reach
+                * if view.receivers.has_normals { ROUNDING } else { 8.0 * ROUNDING },
             eye: of_eye,
             light: light.extend(center.w).as_vec4().to_array(),
             slack: planes

@@ -3,6 +3,18 @@
 use crate::error::Error;
 use wgpu::{TextureFormat, TextureUsages};
 
+/// Of a depth buffer that [`crate::Resolve`] reads, of any size.
+pub(crate) fn depth_of_any_samples(view: &wgpu::TextureView) -> Result<(), Error> {
+    depth_format(view.texture().format())?;
+    usages("depth buffer", view.texture(), TextureUsages::TEXTURE_BINDING)
+}
+
+/// Of normals that go with such a depth buffer; there is no `R32Uint` with several samples.
+pub(crate) fn normal_beside(normal: &wgpu::TextureView, depth: &wgpu::TextureView) -> Result<(), Error> {
+    let depth = depth.texture();
+    self::normal(normal, (depth.width(), depth.height()))
+}
+
 /// Of a depth buffer with one sample a pixel.
 pub(super) fn depth(view: &wgpu::TextureView, size: (u32, u32)) -> Result<(), Error> {
     let texture = view.texture();
@@ -11,7 +23,7 @@ pub(super) fn depth(view: &wgpu::TextureView, size: (u32, u32)) -> Result<(), Er
 }
 
 /// 24 bits or floats.
-pub(super) fn depth_format(format: TextureFormat) -> Result<(), Error> {
+fn depth_format(format: TextureFormat) -> Result<(), Error> {
     use TextureFormat::{Depth24Plus, Depth24PlusStencil8, Depth32Float, Depth32FloatStencil8};
     match format {
         Depth24Plus | Depth24PlusStencil8 | Depth32Float | Depth32FloatStencil8 => Ok(()),
@@ -23,14 +35,17 @@ pub(super) fn depth_format(format: TextureFormat) -> Result<(), Error> {
 
 /// Of packed normals.
 pub(super) fn normal(view: &wgpu::TextureView, size: (u32, u32)) -> Result<(), Error> {
-    let texture = view.texture();
-    if texture.format() != TextureFormat::R32Uint {
-        let found = texture.format();
-        return lent(format!(
-            "the texture of normals is {found:?}; make it R32Uint, packed as `wgsl::PACK_NORMAL` does, or give none"
-        ));
+    normal_format(view.texture().format())?;
+    check_texture("texture of normals", view.texture(), size, TextureUsages::TEXTURE_BINDING)
+}
+
+fn normal_format(found: TextureFormat) -> Result<(), Error> {
+    if found == TextureFormat::R32Uint {
+        return Ok(());
     }
-    check_texture("texture of normals", texture, size, TextureUsages::TEXTURE_BINDING)
+    lent(format!(
+        "the texture of normals is {found:?}; make it R32Uint, packed as `wgsl::PACK_NORMAL` does, or give none"
+    ))
 }
 
 /// Of `depth`'s texture with both aspects.
@@ -85,10 +100,18 @@ fn usages(what: &str, texture: &wgpu::Texture, needed: TextureUsages) -> Result<
 }
 
 /// What only the driver knows of a view.
-pub(super) fn rejected(reason: String) -> Error {
+pub(crate) fn rejected(reason: String) -> Error {
     let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ");
     Error::Lent(format!(
         "a view of receivers can't be bound; make it two-dimensional, of one layer, one level and the depth alone ({reason})"
+    ))
+}
+
+/// What the driver says of a host's WGSL.
+pub(crate) fn not_compiled(reason: String) -> Error {
+    Error::Lent(format!(
+        "the host's WGSL does not compile; it has to declare `fn view_distance(stored: f32) -> f32` ({})",
+        reason.split_whitespace().collect::<Vec<_>>().join(" ")
     ))
 }
 

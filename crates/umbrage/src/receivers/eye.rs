@@ -1,7 +1,8 @@
 //! The camera as shaders need it that start from visible surfaces.
 
-use crate::{shader::shader_struct, view::View};
-use umbrage_core::glam::DVec4;
+use crate::shader::shader_struct;
+use crate::view::{View, clip_from_eye};
+use umbrage_core::{CameraView, glam::DVec4};
 
 shader_struct! {
     /// How to get from a pixel to the surface it shows, see `eye.wgsl`.
@@ -17,25 +18,35 @@ shader_struct! {
         /// How far the rasteriser that made the depth buffer may shift surfaces, in normalised
         /// device coordinates.
         snapped: [f32; 2],
-        /// Not read.
-        pad: [f32; 2],
+        /// Steps of single precision by which depth may be off.
+        coarseness: f32,
+        /// −1 where the picture is mirrored, else 1.
+        handed: f32,
     }
 }
 
 impl Eye {
     /// For the camera and size of `view`.
     pub fn new(view: &View<'_>) -> Self {
-        let (width, height) = view.receivers.size;
-        let eye_from_ndc = view.clip_from_eye().inverse();
+        let seen = view.receivers;
+        Self::of(&view.camera, seen.size, seen.snapping.max(seen.bend), seen.coarseness)
+    }
+
+    /// For a camera whose picture has `size`; depth may be shifted by `snapping` pixels and rounded
+    /// to `coarseness` steps of single precision.
+    pub(crate) fn of(camera: &CameraView, size: (u32, u32), snapping: f32, coarseness: f32) -> Self {
+        let (width, height) = size;
+        let eye_from_ndc = clip_from_eye(camera).inverse();
         let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
         let ends = corners.into_iter().flat_map(|(x, y)| [0.0, 1.0].map(|z| eye_from_ndc * DVec4::new(x, y, z, 1.0)));
         Self {
             reach: ends.map(|p| p.truncate().abs().element_sum()).fold(0.0, f64::max) as f32,
             eye_from_ndc: eye_from_ndc.as_mat4().to_cols_array_2d(),
             ndc_from_pixel: [2.0 / width as f32, -2.0 / height as f32],
-            background_depth: view.camera.background_depth(),
-            snapped: [width, height].map(|pixels| 2.0 * view.receivers.snapping / pixels as f32),
-            pad: [0.0; 2],
+            background_depth: camera.background_depth(),
+            snapped: [width, height].map(|pixels| 2.0 * snapping / pixels as f32),
+            coarseness,
+            handed: if camera.is_mirrored() { -1.0 } else { 1.0 },
         }
     }
 }

@@ -12,7 +12,10 @@ struct Eye {
     // How far the rasteriser that made the depth buffer may shift surfaces, in normalised device
     // coordinates.
     snapped: vec2f,
-    pad: vec2f,
+    // Steps of single precision by which depth may be off.
+    coarseness: f32,
+    // −1 where the picture is mirrored, else 1.
+    handed: f32,
 }
 
 // Homogeneous normalised device coordinates of a pixel.
@@ -29,6 +32,13 @@ fn eye_w(eye: Eye, ndc: vec4f) -> f32 {
 fn position_eye(eye: Eye, pixel: vec2f, depth: f32) -> vec3f {
     let p = eye.eye_from_ndc * ndc_of(eye, pixel, depth);
     return p.xyz / p.w;
+}
+
+// The way of the ray through a pixel, away from the eye, of any length.
+fn line_of_sight(eye: Eye, pixel: vec2f) -> vec3f {
+    let start = eye.eye_from_ndc * ndc_of(eye, pixel, 0.0);
+    let change = eye.eye_from_ndc[2];
+    return (change.xyz * start.w - start.xyz * change.w) * (2.0 * eye.background_depth - 1.0);
 }
 
 // Metres times the length of `normal` that a position may be off its surface: rasterisers snap

@@ -1,12 +1,11 @@
 //! What shadows fall on: the depth buffer of the view, and normals where the host has them.
 
-mod check;
+pub(crate) mod check;
 mod eye;
 
 use crate::fullscreen::{self, bind};
 use crate::shader::Shared;
 use crate::{error::Error, gpu::Gpu};
-pub(crate) use check::check_texture;
 pub use eye::Eye;
 
 /// What the host has to agree on with `eye.wgsl`.
@@ -30,6 +29,10 @@ pub struct Receivers {
     pub(crate) stencil: Option<wgpu::TextureView>,
     /// Pixels by which the rasteriser may have shifted surfaces.
     pub(crate) snapping: f32,
+    /// Pixels by which depth that was continued from elsewhere in a pixel may be shifted.
+    pub(crate) bend: f32,
+    /// Steps of single precision by which depth may be off.
+    pub(crate) coarseness: f32,
 }
 
 impl Receivers {
@@ -66,6 +69,8 @@ impl Receivers {
             depth: depth.clone(),
             stencil: None,
             snapping: gpu.snapping(),
+            bend: 0.0,
+            coarseness: 1.0,
         })
     }
 
@@ -95,7 +100,8 @@ impl Receivers {
     }
 }
 
-fn placeholder(gpu: &Gpu) -> wgpu::TextureView {
+/// What is bound where there are no normals.
+pub(crate) fn placeholder(gpu: &Gpu) -> wgpu::TextureView {
     let texture = fullscreen::target_texture(gpu, "no normals", (1, 1), 1, wgpu::TextureFormat::R32Uint);
     texture.create_view(&Default::default())
 }

@@ -13,7 +13,7 @@ override HAS_NORMALS: bool = true;
 fn position_rounding(eye: Eye, depth: f32, inverse_w: f32) -> f32 {
     let inverse = abs(inverse_w);
     // A normal taken from neighbouring depths is off by their rounding, too.
-    let step = select(9.6e-7, 1.2e-7, HAS_NORMALS);
+    let step = select(9.6e-7, 1.2e-7, HAS_NORMALS) * eye.coarseness;
     return step * eye.reach * inverse * (1.0 + depth * abs(eye.eye_from_ndc[2].w) * inverse);
 }
 
@@ -50,5 +50,5 @@ fn surface(eye: Eye, pixel: vec2f, depth: f32) -> Surface {
     let here = position_eye(eye, pixel, depth);
     let across = along_surface(eye, pixel, here, vec2i(1, 0));
     let down = along_surface(eye, pixel, here, vec2i(0, 1));
-    return Surface(cross(down, across), true);
+    return Surface(eye.handed * cross(down, across), true);
 }

@@ -29,6 +29,7 @@ fn edge_scene(half: f64, edge: f64, width: f64) -> Scene {
         up: DVec3::NEG_Z,
         fov_y_deg: 2.0 * (half_rows / above).atan().to_degrees(),
         near: 0.01 * above,
+        ..Camera::default()
     };
     scene
 }

@@ -98,6 +98,7 @@ impl Case {
             up: turn * DVec3::NEG_Z,
             fov_y_deg: 2.0 * (half_rows / above).atan().to_degrees(),
             near: 0.01 * above,
+            ..Camera::default()
         };
         scene
     }

@@ -202,7 +202,8 @@ fn wall(floor_casts: bool) -> Scene {
     let half = 0.5 * PIXEL * f64::from(FOOT.1);
     let target = DVec3::new(0.0, 0.0, half);
     let fov_y_deg = 2.0 * (half / 2.0).atan().to_degrees();
-    scene.camera = Camera { eye: target + DVec3::Y * 2.0, target, up: DVec3::NEG_Z, fov_y_deg, near: 0.02 };
+    scene.camera =
+        Camera { eye: target + DVec3::Y * 2.0, target, up: DVec3::NEG_Z, fov_y_deg, near: 0.02, ..Camera::default() };
     scene
 }
 

@@ -4,7 +4,6 @@ use super::mask::Mask;
 use crate::area_light::{Form, casters_in_view, is_on_a_caster};
 use crate::technique::{InOrder, Inside, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, inline::Lent, passes::Passes, view::View, visibility::VisibilityTarget};
-use umbrage_core::glam::DVec3;
 
 /// What users type.
 pub(super) const ID: &str = "light-mask";
@@ -31,10 +30,6 @@ impl LightMask {
 
 impl Technique for LightMask {
     fn prepare_view(&mut self, gpu: &Gpu, view: &View<'_>, _: InOrder) -> Result<(), Error> {
-        if view.camera.clip_from_view.row(3).truncate() == DVec3::ZERO {
-            let what = "parallel projections of the camera; choose `volume` or a map".into();
-            return Err(Error::Unsupported { technique: ID.into(), what });
-        }
         // The picture of a light is in its samples.
         let mut form = Form::of(&view.light.shape, false, self.point_radius);
         if form.is_point() && is_on_a_caster(gpu, view, form.center)? {

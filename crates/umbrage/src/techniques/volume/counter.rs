@@ -42,6 +42,7 @@ impl Counter {
             depth_format: OWN_DEPTH,
             count_format: wgpu::TextureFormat::R32Float,
             reversed: true,
+            mirrored: false,
         };
         Self { targets: None, copy: None, key, bounds: None }
     }
@@ -70,6 +71,7 @@ impl Counter {
             depth_format: lent.map_or(own_format, |view| view.texture().format()),
             count_format: if blends { wgpu::TextureFormat::R32Float } else { wgpu::TextureFormat::R16Float },
             reversed,
+            mirrored: view.camera.is_mirrored(),
         };
         let fits = |t: &Targets| t.key == self.key && t.size == receivers.size && t.lent.as_ref() == lent;
         if !self.targets.as_ref().is_some_and(fits) {

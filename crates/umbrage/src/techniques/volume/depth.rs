@@ -1,6 +1,5 @@
 //! The receivers' depth for volumes to be compared with, where their own buffer will not do.
 
-use super::situation::is_parallel;
 use crate::fullscreen::{UNIFORM, bind, layout};
 use crate::receivers::Eye;
 use crate::shader::{Shader, shader_struct};
@@ -63,7 +62,7 @@ impl Projection {
     pub fn of(camera: &CameraView, clamps: bool) -> Option<Self> {
         let far = camera.clip_from_view * DVec4::new(0.0, 0.0, -1.0, 0.0);
         let is_infinite = camera.background_depth() == 0.0 && far.z.abs() <= 1e-12 * far.w.abs();
-        if clamps || is_infinite || is_parallel(camera) {
+        if clamps || is_infinite || camera.is_parallel() {
             return None;
         }
         let near_depth = if camera.background_depth() == 0.0 { 1.0 } else { 0.0 };

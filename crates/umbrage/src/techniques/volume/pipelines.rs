@@ -3,7 +3,7 @@
 
 use super::options::CounterKind;
 use crate::casters::Edges;
-use crate::fullscreen::{FLOATS, additive, layout, texture};
+use crate::fullscreen::{front_face, FLOATS, additive, layout, texture};
 use crate::shader::Shader;
 use crate::silhouettes::Part;
 use crate::{gpu::Gpu, visibility::VisibilityTarget};
@@ -45,6 +45,8 @@ pub(super) struct TargetKey {
     pub count_format: wgpu::TextureFormat,
     /// Near is 1.
     pub reversed: bool,
+    /// The picture is mirrored.
+    pub mirrored: bool,
 }
 
 /// Made once each.
@@ -126,7 +128,12 @@ impl Pipelines {
                 },
                 buffers: &[],
             },
-            primitive: wgpu::PrimitiveState { cull_mode: key.cull, unclipped_depth: self.clamps, ..Default::default() },
+            primitive: wgpu::PrimitiveState {
+                front_face: front_face(key.target.mirrored),
+                cull_mode: key.cull,
+                unclipped_depth: self.clamps,
+                ..Default::default()
+            },
             depth_stencil: Some(depth_stencil(key)),
             multisample: Default::default(),
             fragment: (key.target.kind == CounterKind::Float).then_some(counts),

@@ -5,7 +5,7 @@ use crate::casters::{MeshEdges, Placed, largest_stretch};
 use crate::view::{View, off_ties};
 use umbrage_core::glam::{DVec3, DVec4};
 use umbrage_core::shadow_hull::{self, Convex};
-use umbrage_core::{Bounds, CameraView, Frustum};
+use umbrage_core::{Bounds, Frustum};
 
 /// See the module.
 pub(super) struct Situation<'a> {
@@ -47,7 +47,7 @@ impl<'a> Situation<'a> {
             frustum: Frustum::of(&camera.clip_from_world()),
             around_eye,
             pyramid: (!clamps).then(|| shadow_hull::occlusion_pyramid(camera, light)),
-            is_parallel_view: is_parallel(camera),
+            is_parallel_view: camera.is_parallel(),
             range: view.light.range.filter(|_| options.is_finite() && light.w != 0.0),
             seen,
             farthest: (light.w != 0.0).then(|| seen.corners().map(distance).into_iter().fold(0.0, f64::max)),
@@ -102,11 +102,6 @@ impl<'a> Situation<'a> {
         let half_angle = (half_edge / near).asin() * 2.0 / 3.0_f64.sqrt();
         if half_angle < 1.3 { range / half_angle.cos() * 1.001 } else { 0.0 }
     }
-}
-
-/// True where all lines of sight run in one direction.
-pub(super) fn is_parallel(camera: &CameraView) -> bool {
-    camera.clip_from_view.row(3).truncate() == DVec3::ZERO
 }
 
 pub(super) fn common(a: &Bounds, b: &Bounds) -> Bounds {

@@ -6,7 +6,6 @@ use super::options;
 use super::options::{Count, CounterKind, ID, Options};
 use super::pipelines::{Key, Pipelines, Test};
 use super::select::{Fate, Selection};
-use super::situation::is_parallel;
 use super::views::{self, Views};
 use crate::casters::Edges;
 use crate::silhouettes::{Part, Silhouettes, Style};
@@ -126,7 +125,7 @@ impl Volume {
     }
 
     fn choose(&mut self, gpu: &Gpu, view: &View<'_>) -> Result<DVec4, Error> {
-        if !self.clamps && is_parallel(&view.camera) {
+        if !self.clamps && view.camera.is_parallel() {
             let what = "parallel projections on this adapter, which lacks DEPTH_CLIP_CONTROL".into();
             return Err(Error::Unsupported { technique: ID.into(), what });
         }

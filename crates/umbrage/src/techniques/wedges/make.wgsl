@@ -176,7 +176,7 @@ fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     wedge.end = b;
     wedge.anchor = Anchor(casters[caster].seen_from, 0.0, casters[caster].axis, 0.0);
     wedge.plane = plane_of(&wedge);
-    wedge.eye_inside = f32(0.0 >= wedge.plane.w);
+    wedge.eye_inside = f32(dot(wedge.plane.xyz, light.toward_eye) >= wedge.plane.w * light.eye_w);
     wedge.from_infinity = f32((casters[caster].flags & COUNT_FROM_INFINITY) != 0u);
     let end = casters[caster].end;
     wedge.dark = vec4f(end.xyz, end.w + dot(end.xyz, light.eye_from_origin));

@@ -196,7 +196,8 @@ impl Piece {
 
     pub fn key(&self, view: &View<'_>, draw: &'static Draw, target: &Target) -> Key {
         let depth = target.depth(view).map(|d| (d.texture().format(), is_reversed(view)));
-        Key { draw, depth, face: self.form.face, term: self.term, split: self.is_split() }
+        let mirrored = view.camera.is_mirrored();
+        Key { draw, depth, face: self.form.face, term: self.term, split: self.is_split(), mirrored }
     }
 
     /// The hard shadow, as the GPU counted its sides.

@@ -7,7 +7,7 @@ use super::tables::Term;
 use crate::area_light::Face;
 use crate::casters::Edges;
 use crate::compute::compute_pipeline;
-use crate::fullscreen::{FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, layout};
+use crate::fullscreen::{front_face, FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, layout};
 use crate::receivers::Receivers;
 use crate::shader::Shader;
 use crate::{gpu::Gpu, visibility::VisibilityTarget};
@@ -60,6 +60,8 @@ pub(super) struct Key {
     pub face: Face,
     pub term: Term,
     pub split: bool,
+    /// The picture is mirrored.
+    pub mirrored: bool,
 }
 
 /// A pipeline that turns shares into visibility.
@@ -205,6 +207,7 @@ impl Pipelines {
         let stages = Stages {
             vertex_constants: if how.is_body { &vertex_constants } else { &[] },
             fragment_constants: if how.shares { &fragment_constants } else { &[] },
+            front_face: front_face(key.mirrored),
             cull_mode: how.cull_mode,
             unclipped_depth: self.clamps && how.is_body,
             ..Stages::new(&module, how.vertex, how.fragment)

@@ -66,7 +66,7 @@ impl Selection {
         let edges = view.casters.edges(gpu)?;
         // Segments from the eye to what is seen stay in this box. One plane a caster, so that
         // neighbours share corners.
-        let seen = view.seen().with(view.camera.eye);
+        let seen = if view.camera.is_parallel() { view.seen() } else { view.seen().with(view.camera.eye) };
         let seen = seen.grown(BEHIND * seen.size().length());
         let rounding = view.rounding();
         let around_eye = view.around_eye().grown(rounding);
@@ -98,7 +98,8 @@ impl Selection {
             anchor: [anchor, axis].map(|v| v.as_vec3()),
             ..throw(place, light, &mesh.adjacency, end, shows_inside)
         };
-        let eye_count = if is_open_to_eye {
+        // Parallel lines of sight start at no eye.
+        let eye_count = if is_open_to_eye || view.camera.is_parallel() {
             None
         } else if segment_touches(view.camera.eye, light, &bounds, scope.rounding) {
             before_eye(view, placed, mesh, light, scope.rounding).map(|count| weights(&throw, count))

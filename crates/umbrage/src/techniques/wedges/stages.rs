@@ -1,6 +1,6 @@
 //! A render pipeline of wedges: shaders and what comes between them.
 
-use crate::gpu::Gpu;
+use crate::{fullscreen::front_face, gpu::Gpu};
 
 /// Shaders of a render pipeline and what comes between them.
 pub(super) struct Stages<'a> {
@@ -9,6 +9,7 @@ pub(super) struct Stages<'a> {
     pub fragment: &'a str,
     pub vertex_constants: &'a [(&'a str, f64)],
     pub fragment_constants: &'a [(&'a str, f64)],
+    pub front_face: wgpu::FrontFace,
     pub cull_mode: Option<wgpu::Face>,
     pub unclipped_depth: bool,
 }
@@ -16,8 +17,16 @@ pub(super) struct Stages<'a> {
 impl<'a> Stages<'a> {
     pub fn new(module: &'a wgpu::ShaderModule, vertex: &'a str, fragment: &'a str) -> Self {
         let (vertex_constants, fragment_constants): (&[_], &[_]) = (&[], &[]);
-        let (cull_mode, unclipped_depth) = (None, false);
-        Self { module, vertex, fragment, vertex_constants, fragment_constants, cull_mode, unclipped_depth }
+        Self {
+            module,
+            vertex,
+            fragment,
+            vertex_constants,
+            fragment_constants,
+            front_face: front_face(false),
+            cull_mode: None,
+            unclipped_depth: false,
+        }
     }
 
     pub fn pipeline(
@@ -41,6 +50,7 @@ impl<'a> Stages<'a> {
                 buffers: &[],
             },
             primitive: wgpu::PrimitiveState {
+                front_face: self.front_face,
                 cull_mode: self.cull_mode,
                 unclipped_depth: self.unclipped_depth,
                 ..Default::default()

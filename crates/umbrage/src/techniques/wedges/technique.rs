@@ -4,7 +4,7 @@ use super::budget::Budget;
 use super::draws;
 use super::old_ways;
 use super::one_draw::OneDraw;
-use super::options::{self, ID, Options};
+use super::options::{self, Options};
 use super::piece::{Piece, Recording, is_reversed};
 use super::pipelines::{Key, Pipelines, Resolve};
 use super::records::GROUP;
@@ -18,7 +18,6 @@ use crate::receivers::Eye;
 use crate::silhouettes::Part;
 use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, inline::Lent, passes::Passes, view::View, visibility::VisibilityTarget};
-use umbrage_core::glam::DVec3;
 
 pub(super) struct Wedges {
     options: Options,
@@ -227,10 +226,6 @@ fn compared_depth(view: &View<'_>) -> Option<(wgpu::TextureFormat, bool)> {
 
 impl Technique for Wedges {
     fn prepare_view(&mut self, gpu: &Gpu, view: &View<'_>, _: InOrder) -> Result<(), Error> {
-        if view.camera.clip_from_view.row(3).truncate() == DVec3::ZERO {
-            let what = "parallel projections, since shadows are counted from the eye; choose `volume` or a map".into();
-            return Err(Error::Unsupported { technique: ID.into(), what });
-        }
         let has_picture = self.tables.prepare(gpu, view, self.options.split);
         let mut form = Form::of(&view.light.shape, has_picture, self.options.point_radius);
         if is_on_a_caster(gpu, view, form.center)? {

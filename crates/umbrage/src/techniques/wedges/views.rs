@@ -6,7 +6,7 @@ use super::records::GROUP;
 use super::shaders;
 use super::stages::compare;
 use super::targets::{BUNDLES, Buffers, SINGLES, lent_depth};
-use crate::fullscreen::{FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout, target_texture, texture};
+use crate::fullscreen::{front_face, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout, target_texture, texture};
 use crate::receivers::Eye;
 use crate::technique::DebugView;
 use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View, visibility::VisibilityTarget};
@@ -233,6 +233,7 @@ impl Views {
             },
             primitive: wgpu::PrimitiveState {
                 topology: if is_lines { wgpu::PrimitiveTopology::LineList } else { Default::default() },
+                front_face: front_face(key.mirrored),
                 cull_mode: (!has_sides).then_some(wgpu::Face::Front),
                 unclipped_depth: clamps,
                 ..Default::default()

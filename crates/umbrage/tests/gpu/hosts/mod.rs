@@ -1,13 +1,12 @@
 //! What hosts can do wrong, and what can befall them: a right picture or an error that says what to
 //! do, and nothing that stays wrong.
 
-mod lights;
 mod order;
 
 use crate::common::pairs;
 use std::sync::{Arc, Mutex};
 use umbrage::core::glam::DVec3;
-use umbrage::core::{Camera, CameraView, Image, Scene};
+use umbrage::core::{Camera, Image, Scene};
 use umbrage::{Casters, Error, Gpu, Receivers, Recorder, Technique, View, VisibilityTarget, find};
 
 const SIZE: (u32, u32) = (96, 72);
@@ -25,7 +24,6 @@ struct Host {
     receivers: Receivers,
     technique: Box<dyn Technique>,
     recorder: Recorder,
-    camera: CameraView,
     target: VisibilityTarget,
 }
 
@@ -54,7 +52,6 @@ impl Host {
             receivers: Receivers::new(&gpu, &floor(&gpu), None, SIZE)?,
             technique: find(id)?.settings(&pairs(set))?.make(&gpu)?,
             recorder: Recorder::new(&gpu),
-            camera: camera().view(SIZE.0, SIZE.1),
             target: VisibilityTarget::new(&gpu, SIZE.0, SIZE.1)?,
             scene: scene.clone(),
             complaints,
@@ -78,7 +75,7 @@ impl Host {
         let mut passes = self.recorder.begin(&mut encoder);
         self.casters.record_poses(&mut passes);
         let view = View {
-            camera: self.camera,
+            camera: camera().view(SIZE.0, SIZE.1),
             receivers: &self.receivers,
             casters: &self.casters,
             light: &self.scene.lights[0],

@@ -33,7 +33,8 @@ fn stairs(plate: &Mesh, is_one_mesh: bool) -> Scene {
     }
     // Straight down on the strips.
     let eye = DVec3::new(1.6, 2.5, 0.0);
-    scene.camera = Camera { eye, target: eye - DVec3::Y, up: DVec3::NEG_Z, fov_y_deg: 5.0, near: 0.05 };
+    scene.camera =
+        Camera { eye, target: eye - DVec3::Y, up: DVec3::NEG_Z, fov_y_deg: 5.0, near: 0.05, ..Camera::default() };
     scene
 }
 

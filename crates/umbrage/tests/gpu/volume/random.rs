@@ -89,7 +89,14 @@ impl Random {
             4 => target = eye + toward(eye) + self.direction() * 0.3,
             _ => target = eye - toward(eye) + self.direction() * 0.3,
         }
-        Camera { eye, target, up: DVec3::Y, fov_y_deg: self.range(30.0, 80.0), near: scene.camera.near }
+        Camera {
+            eye,
+            target,
+            up: DVec3::Y,
+            fov_y_deg: self.range(30.0, 80.0),
+            near: scene.camera.near,
+            ..Camera::default()
+        }
     }
 
     /// The box around a caster that is not half of the scene, where there is such a one.
