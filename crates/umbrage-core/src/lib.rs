@@ -21,6 +21,7 @@ pub mod facets;
 pub mod frustum;
 pub mod image;
 pub mod light;
+mod light_check;
 mod light_reach;
 pub mod light_view;
 pub mod lit_part;

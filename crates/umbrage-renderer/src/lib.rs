@@ -141,6 +141,7 @@ impl Renderer {
 
     fn draw(&mut self, camera: &Camera, target: &wgpu::TextureView, format: wgpu::TextureFormat) -> Result<(), Error> {
         self.gpu.check()?;
+        self.lights.iter_mut().try_for_each(Lit::make_usable)?;
         let Targets { gbuffer, receivers, .. } = &self.targets;
         let camera = camera.view(receivers.size.0, receivers.size.1);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());

@@ -72,6 +72,14 @@ impl Lit {
         }
     }
 
+    /// Gives the light's directions unit length.
+    pub fn make_usable(&mut self) -> Result<(), Error> {
+        if let Some(usable) = self.light.usable().map_err(Error::Light)? {
+            self.light = usable;
+        }
+        Ok(())
+    }
+
     /// Gives the light another technique and returns the one that it had. The target stays where it
     /// does for both.
     pub fn exchange(

@@ -71,6 +71,12 @@ pub enum Error {
         /// What it can't do.
         what: String,
     },
+    /// A light can't shine.
+    #[error("{0}")]
+    Light(String),
+    /// A camera sees nothing.
+    #[error("{0}")]
+    Camera(String),
     /// A size is 0 or over the adapter's limit.
     #[error("{what} of {size} is {}; the adapter allows 1 to {limit}", if *.size == 0 { "empty" } else { "too large" })]
     Size {

@@ -42,6 +42,7 @@ mod area_light;
 pub mod baseline;
 mod bvh;
 mod casters;
+mod checked;
 mod compute;
 mod deliver;
 pub mod depth_maps;

@@ -2,6 +2,7 @@
 //! its type.
 
 use crate::answer::RadianceTarget;
+use crate::checked::Checked;
 use crate::inline::Inline;
 use crate::technique::{InOrder, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
@@ -12,14 +13,17 @@ impl dyn Technique {
     /// `view` can change. Several techniques may be prepared before any is recorded.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a light or view that the technique can't do, [`Error::Size`]
-    /// beyond the limits.
+    /// [`Error::Light`] and [`Error::Camera`] for numbers that are not finite or out of their range;
+    /// directions need not be of unit length. [`Error::Unsupported`] for a light or view that the
+    /// technique can't do, [`Error::Size`] beyond the limits. [`Error::Order`] once where the host
+    /// submitted frames in another order than they were recorded in, [`Error::DeviceLost`].
     pub fn prepare<'t>(&'t mut self, gpu: &Gpu, view: &View<'t>) -> Result<Prepared<'t>, Error> {
         gpu.check_loss()?;
         gpu.settle();
         gpu.check_fault()?;
-        self.prepare_view(gpu, view, InOrder::new())?;
-        Ok(Prepared { technique: self, view: *view })
+        let checked = Checked::new(view)?;
+        self.prepare_view(gpu, &checked.view(), InOrder::new())?;
+        Ok(Prepared { technique: self, checked })
     }
 
     /// What a shader of the host's own calls to look this light up: see [`Inline`]. To be asked for
@@ -56,7 +60,7 @@ impl dyn Technique {
 #[must_use = "a technique that was prepared leaves nothing in its target until it is recorded"]
 pub struct Prepared<'t> {
     technique: &'t mut dyn Technique,
-    view: View<'t>,
+    checked: Checked<'t>,
 }
 
 impl Prepared<'_> {
@@ -66,7 +70,7 @@ impl Prepared<'_> {
     /// [`Error::Scene`] where the target is not as large as the receivers; [`Error::Unsupported`]
     /// where the technique [answers](Technique::answer) with radiance.
     pub fn record(self, passes: &mut Passes<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
-        self.technique.record_visibility(passes, &self.view, visibility, InOrder::new())
+        self.technique.record_visibility(passes, &self.checked.view(), visibility, InOrder::new())
     }
 
     /// In place of [`Prepared::record`] where shaders of the host's own find the visibility, see
@@ -75,7 +79,7 @@ impl Prepared<'_> {
     /// # Errors
     /// [`Error::Unsupported`] where the technique [lends](Technique::lend) nothing.
     pub fn record_maps(self, passes: &mut Passes<'_>) -> Result<(), Error> {
-        self.technique.record_maps(passes, &self.view, InOrder::new())
+        self.technique.record_maps(passes, &self.checked.view(), InOrder::new())
     }
 
     /// In place of [`Prepared::record`] where the [answer](Technique::answer) is radiance: records
@@ -84,6 +88,6 @@ impl Prepared<'_> {
     /// # Errors
     /// As [`Prepared::record`], but where the technique answers with visibility.
     pub fn record_radiance(self, passes: &mut Passes<'_>, radiance: &RadianceTarget) -> Result<(), Error> {
-        self.technique.record_radiance(passes, &self.view, radiance, InOrder::new())
+        self.technique.record_radiance(passes, &self.checked.view(), radiance, InOrder::new())
     }
 }

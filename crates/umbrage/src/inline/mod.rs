@@ -202,3 +202,61 @@ fn choice(text: &mut String, prefix: &str, lights: usize, Function(name, typed, 
     }
     let _ = writeln!(text, "        default: {{ return 1.0; }}\n    }}\n}}");
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Shader;
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+    /// The look-ups of all techniques that lend theirs.
+    fn lookups() -> impl Iterator<Item = &'static Shader> {
+        let shaders = crate::techniques().iter().filter(|info| info.is_lent()).flat_map(|info| info.shaders);
+        shaders.filter(|shader| {
+            let needs = shader.needs().expect("the needs of a shader of the library");
+            let has = |name| needs.iter().any(|module| module.name == name);
+            has("map_visibility") && !has("map_picture")
+        })
+    }
+
+    fn into_host(shader: &Shader, prefix: &str, group: u32) -> String {
+        let text = shader.inline_text().expect("modules that stand for those of full-screen passes");
+        let binding = |(of, number): (u32, u32)| (of - 1) * 3 + number;
+        wgsl::rewritten(&text, &wgsl::Into { prefix, constants: &[("LAYERS", 4.0)], group, binding: &binding })
+    }
+
+    #[test]
+    fn look_ups_are_valid_in_a_module_of_a_hosts_and_all_names_have_the_prefix() {
+        let mut count = 0;
+        for shader in lookups() {
+            count += 1;
+            // Names that look-ups have without a prefix.
+            let host = "struct Eye { at: vec2f, }\nfn visibility(eye: Eye) -> f32 { return eye.at.x; }\noverride PERSPECTIVE: f32 = 1.0;";
+            let text = format!("{host}\n{}\n{}", into_host(shader, "sun", 1), into_host(shader, "lamp", 2));
+            let module = naga::front::wgsl::parse_str(&text)
+                .unwrap_or_else(|e| panic!("{}: {}", shader.name, e.emit_to_string(&text)));
+            Validator::new(ValidationFlags::all(), Capabilities::empty())
+                .validate(&module)
+                .unwrap_or_else(|e| panic!("{}: {}", shader.name, e.emit_to_string(&text)));
+            assert!(module.entry_points.is_empty() && module.overrides.len() == 1, "{}", shader.name);
+            let names = module.functions.iter().filter_map(|(_, f)| f.name.as_deref());
+            let names = names.chain(module.global_variables.iter().filter_map(|(_, v)| v.name.as_deref()));
+            let foreign: Vec<_> = names.filter(|n| !n.starts_with("sun_") && !n.starts_with("lamp_")).collect();
+            assert_eq!(foreign, ["visibility"], "{}", shader.name);
+            for Function(name, typed, _) in &FUNCTIONS {
+                assert!(text.contains(&format!("fn sun_{name}({typed}) -> f32")), "{}: {name}", shader.name);
+            }
+        }
+        assert!(count >= 12, "{count} look-ups");
+    }
+
+    #[test]
+    fn a_prefix_is_a_name() {
+        for right in ["sun", "Light_2", "a"] {
+            assert_eq!(check_prefix(right), Ok(()));
+        }
+        for wrong in ["", "2sun", "_sun", "sun light", "sün", "sun-"] {
+            assert!(matches!(check_prefix(wrong), Err(Error::Inline(_))), "{wrong}");
+        }
+    }
+}

@@ -6,13 +6,14 @@ mod common;
 mod dark;
 mod edges_in_maps;
 mod filters;
+mod forward;
 mod fragments;
 mod golden;
 mod host;
 mod hosts;
+mod inline;
 mod layouts;
 mod lent;
-
 mod light_mask;
 mod limits;
 mod linear_light;

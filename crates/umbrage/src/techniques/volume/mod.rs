@@ -14,6 +14,7 @@ mod situation;
 mod technique;
 mod views;
 
+use crate::checked::Checked;
 use crate::settings::Configure;
 pub use crate::silhouettes::Extrude;
 use crate::silhouettes::FIND_SHADER;
@@ -71,5 +72,7 @@ pub fn record_overlay(
         let (technique, what) = ("this technique".into(), "the overlay of all lights at once; choose `volume`".into());
         return Err(Error::Unsupported { technique, what });
     };
-    volume.overlay(gpu, passes, views, visibility)
+    let checked = views.iter().map(Checked::new).collect::<Result<Vec<_>, Error>>()?;
+    let views: Vec<_> = checked.iter().map(Checked::view).collect();
+    volume.overlay(gpu, passes, &views, visibility)
 }

@@ -1,12 +1,13 @@
 //! What hosts can do wrong, and what can befall them: a right picture or an error that says what to
 //! do, and nothing that stays wrong.
 
+mod lights;
 mod order;
 
 use crate::common::pairs;
 use std::sync::{Arc, Mutex};
 use umbrage::core::glam::DVec3;
-use umbrage::core::{Camera, Image, Scene};
+use umbrage::core::{Camera, CameraView, Image, Scene};
 use umbrage::{Casters, Error, Gpu, Receivers, Recorder, Technique, View, VisibilityTarget, find};
 
 const SIZE: (u32, u32) = (96, 72);
@@ -24,6 +25,7 @@ struct Host {
     receivers: Receivers,
     technique: Box<dyn Technique>,
     recorder: Recorder,
+    camera: CameraView,
     target: VisibilityTarget,
 }
 
@@ -52,6 +54,7 @@ impl Host {
             receivers: Receivers::new(&gpu, &floor(&gpu), None, SIZE)?,
             technique: find(id)?.settings(&pairs(set))?.make(&gpu)?,
             recorder: Recorder::new(&gpu),
+            camera: camera().view(SIZE.0, SIZE.1),
             target: VisibilityTarget::new(&gpu, SIZE.0, SIZE.1)?,
             scene: scene.clone(),
             complaints,
@@ -75,7 +78,7 @@ impl Host {
         let mut passes = self.recorder.begin(&mut encoder);
         self.casters.record_poses(&mut passes);
         let view = View {
-            camera: camera().view(SIZE.0, SIZE.1),
+            camera: self.camera,
             receivers: &self.receivers,
             casters: &self.casters,
             light: &self.scene.lights[0],
