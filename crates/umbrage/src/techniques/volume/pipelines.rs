@@ -3,7 +3,7 @@
 
 use super::options::CounterKind;
 use crate::casters::Edges;
-use crate::fullscreen::{front_face, FLOATS, additive, layout, texture};
+use crate::fullscreen::{FLOATS, additive, front_face, layout, texture};
 use crate::shader::Shader;
 use crate::silhouettes::Part;
 use crate::{gpu::Gpu, visibility::VisibilityTarget};

@@ -7,7 +7,7 @@ use super::tables::Term;
 use crate::area_light::Face;
 use crate::casters::Edges;
 use crate::compute::compute_pipeline;
-use crate::fullscreen::{front_face, FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, layout};
+use crate::fullscreen::{FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, front_face, layout};
 use crate::receivers::Receivers;
 use crate::shader::Shader;
 use crate::{gpu::Gpu, visibility::VisibilityTarget};

@@ -6,7 +6,9 @@ use super::records::GROUP;
 use super::shaders;
 use super::stages::compare;
 use super::targets::{BUNDLES, Buffers, SINGLES, lent_depth};
-use crate::fullscreen::{front_face, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout, target_texture, texture};
+use crate::fullscreen::{
+    FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, front_face, layout, target_texture, texture,
+};
 use crate::receivers::Eye;
 use crate::technique::DebugView;
 use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, view::View, visibility::VisibilityTarget};
