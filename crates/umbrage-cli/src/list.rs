@@ -28,6 +28,8 @@ struct Entry {
     lights: Vec<&'static str>,
     params: &'static [Param],
     views: &'static [&'static str],
+    /// Shaders of hosts can look its maps up.
+    inline: bool,
 }
 
 impl List {
@@ -49,6 +51,7 @@ fn entries(registry: &Registry) -> Vec<Entry> {
         lights: kinds(umbrage_core::LightKinds::ALL),
         params: RayTraced::params(),
         views: &[],
+        inline: false,
     };
     let registered = registry.techniques().iter().map(|t| Entry {
         id: t.id,
@@ -57,6 +60,7 @@ fn entries(registry: &Registry) -> Vec<Entry> {
         lights: kinds(t.lights),
         params: t.params(),
         views: t.views,
+        inline: t.is_lent(),
     });
     std::iter::once(ray_traced).chain(registered).collect()
 }
@@ -68,7 +72,7 @@ fn as_json(entries: &[Entry], adapters: &[AdapterSummary]) -> String {
     };
     let technique = |e: &Entry| {
         json!({ "id": e.id, "summary": e.summary, "source": e.source, "lights": e.lights,
-                "params": e.params.iter().map(param).collect::<Vec<Value>>(), "views": e.views })
+                "params": e.params.iter().map(param).collect::<Vec<Value>>(), "views": e.views, "inline": e.inline })
     };
     let scene = |s: &umbrage_core::scenes::SceneEntry| json!({ "id": s.id, "title": s.title, "about": s.about });
     let adapter = |a: &AdapterSummary| json!({ "name": a.name, "backend": a.backend, "kind": a.kind, "driver": a.driver, "unusable": a.unusable });
@@ -85,6 +89,9 @@ fn as_text(entries: &[Entry], adapters: &[AdapterSummary]) -> String {
     let mut text = String::from("Techniques\n");
     for e in entries {
         text += &format!("  {:16} {}\n  {:16} lights: {}\n", e.id, e.summary, "", e.lights.join(", "));
+        if e.inline {
+            text += &format!("  {:16} also as a look-up in a host's own shader\n", "");
+        }
         for p in e.params {
             let unit = if p.unit.is_empty() { String::new() } else { format!(" {}", p.unit) };
             let (default, range) = (p.kind.default(), p.kind.range());

@@ -106,6 +106,17 @@ fn the_table_of_techniques_is_that_of_the_registry() {
 }
 
 #[test]
+fn the_list_of_look_ups_in_shaders_of_hosts_is_that_of_the_registry() {
+    let row = |t: &TechniqueInfo| format!("| [`{}`](../{}) | {} |\n", t.id, readme_of(t), inline(t));
+    let text = techniques().iter().map(|t| row(t)).collect::<String>();
+    check("docs/hosts.md", "inline", &format!("| technique | in a host's own shader |\n|---|---|\n{text}"));
+}
+
+fn inline(info: &TechniqueInfo) -> &'static str {
+    if info.is_lent() { "yes" } else { "no" }
+}
+
+#[test]
 fn the_readme_is_short() {
     let readme = read("README.md");
     let without_table = with_part(&readme, "techniques", "").expect("the table of techniques");
