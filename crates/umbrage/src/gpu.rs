@@ -217,8 +217,9 @@ impl Gpu {
     /// A two-dimensional texture size checked against the adapter's limit.
     ///
     /// # Errors
-    /// [`Error::Size`].
+    /// [`Error::Size`], [`Error::DeviceLost`].
     pub fn check_size(&self, what: &str, width: u32, height: u32) -> Result<(), Error> {
+        self.check_loss()?;
         let limit = self.device.limits().max_texture_dimension_2d;
         for size in [width, height] {
             if size == 0 || size > limit {

@@ -68,18 +68,21 @@ impl Prepared<'_> {
     ///
     /// # Errors
     /// [`Error::Scene`] where the target is not as large as the receivers; [`Error::Unsupported`]
-    /// where the technique [answers](Technique::answer) with radiance.
+    /// where the technique [answers](Technique::answer) with radiance; [`Error::DeviceLost`].
     pub fn record(self, passes: &mut Passes<'_>, visibility: &VisibilityTarget) -> Result<(), Error> {
-        self.technique.record_visibility(passes, &self.checked.view(), visibility, InOrder::new())
+        self.technique.record_visibility(passes, &self.checked.view(), visibility, InOrder::new())?;
+        passes.check_loss()
     }
 
     /// In place of [`Prepared::record`] where shaders of the host's own find the visibility, see
     /// [`Inline`](crate::Inline): records all that these read, and no full-screen pass.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] where the technique [lends](Technique::lend) nothing.
+    /// [`Error::Unsupported`] where the technique [lends](Technique::lend) nothing;
+    /// [`Error::DeviceLost`].
     pub fn record_maps(self, passes: &mut Passes<'_>) -> Result<(), Error> {
-        self.technique.record_maps(passes, &self.checked.view(), InOrder::new())
+        self.technique.record_maps(passes, &self.checked.view(), InOrder::new())?;
+        passes.check_loss()
     }
 
     /// In place of [`Prepared::record`] where the [answer](Technique::answer) is radiance: records
@@ -88,6 +91,7 @@ impl Prepared<'_> {
     /// # Errors
     /// As [`Prepared::record`], but where the technique answers with visibility.
     pub fn record_radiance(self, passes: &mut Passes<'_>, radiance: &RadianceTarget) -> Result<(), Error> {
-        self.technique.record_radiance(passes, &self.checked.view(), radiance, InOrder::new())
+        self.technique.record_radiance(passes, &self.checked.view(), radiance, InOrder::new())?;
+        passes.check_loss()
     }
 }

@@ -294,8 +294,9 @@ impl TechniqueInfo {
     /// Whether the device has what the technique can't do without.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] naming what is lacking.
+    /// [`Error::Unsupported`] naming what is lacking, [`Error::DeviceLost`].
     pub fn check(&self, gpu: &Gpu) -> Result<(), Error> {
+        gpu.check_loss()?;
         if !gpu.has(self.features) {
             return self.refuse(format!("which lacks {:?}", self.features - gpu.device.features()));
         }

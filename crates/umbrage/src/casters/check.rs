@@ -6,6 +6,7 @@ use umbrage_core::Scene;
 
 /// Indices that lead somewhere and buffers that fit.
 pub(super) fn check(gpu: &Gpu, scene: &Scene) -> Result<(), Error> {
+    gpu.check_loss()?;
     for (i, instance) in scene.instances.iter().enumerate() {
         if instance.mesh >= scene.meshes.len() || instance.material >= scene.materials.len() {
             return Err(Error::Scene(format!("instance {i} refers to a mesh or material that is not in the scene")));

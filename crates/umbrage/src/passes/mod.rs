@@ -163,6 +163,11 @@ impl Passes<'_> {
         }
     }
 
+    /// That what was recorded is worth anything.
+    pub(crate) fn check_loss(&self) -> Result<(), Error> {
+        self.gpu.check_loss()
+    }
+
     /// The frame, to be noted by whoever keeps what it changes.
     fn frame(&self) -> &Arc<Frame> {
         &self.frame

@@ -2,6 +2,7 @@
 //! do, and nothing that stays wrong.
 
 mod lights;
+mod loss;
 mod order;
 
 use crate::common::pairs;
@@ -27,6 +28,8 @@ struct Host {
     recorder: Recorder,
     camera: CameraView,
     target: VisibilityTarget,
+    /// What befalls it between preparing and recording.
+    between: Option<Box<dyn FnOnce()>>,
 }
 
 /// A device without features, at the default limits; errors go to a list.
@@ -58,6 +61,7 @@ impl Host {
             target: VisibilityTarget::new(&gpu, SIZE.0, SIZE.1)?,
             scene: scene.clone(),
             complaints,
+            between: None,
             gpu,
         })
     }
@@ -84,7 +88,9 @@ impl Host {
             light: &self.scene.lights[0],
             textures: &[],
         };
-        self.technique.prepare(&self.gpu, &view)?.record(&mut passes, &self.target)?;
+        let prepared = self.technique.prepare(&self.gpu, &view)?;
+        self.between.take().into_iter().for_each(|befall| befall());
+        prepared.record(&mut passes, &self.target)?;
         passes.finish();
         Ok(encoder)
     }
