@@ -17,10 +17,7 @@ impl Renderer {
         }
         self.gpu.check_size("the picture", width, height)?;
         self.targets = Targets::new(&self.gpu, &self.shading, &self.tonemap, size)?;
-        for lit in &mut self.lights {
-            lit.target = Target::new(&self.gpu, &self.shading, lit.target.answer(), size)?;
-            lit.is_left_out = false;
-        }
+        self.set_one_target(self.one_target.is_some())?;
         if let Some(overlay) = &mut self.overlay {
             overlay.resize(&self.gpu, size)?;
             self.light_everything();
@@ -35,7 +32,8 @@ impl Renderer {
     /// [`Error::Scene`] where there is no such pass.
     pub fn set_technique(&mut self, pass: usize, technique: Box<dyn Technique>) -> Result<(), Error> {
         let lit = self.lights.get_mut(pass).ok_or_else(|| no_pass(pass))?;
-        lit.exchange(&self.gpu, &self.shading, technique, self.targets.size()).map(|_| ())
+        let targets = (self.targets.size(), self.one_target.as_ref());
+        lit.exchange(&self.gpu, &self.shading, technique, targets).map(|_| ())
     }
 
     /// From the next frame on pass number `pass` works by `settings`, everything else stays. True
@@ -48,11 +46,15 @@ impl Renderer {
     /// stays as it was.
     pub fn set_settings(&mut self, pass: usize, settings: &Settings) -> Result<bool, Error> {
         let lit = self.lights.get_mut(pass).ok_or_else(|| no_pass(pass))?;
-        if lit.technique.set(&self.gpu, settings)? {
-            return Ok(true);
+        let targets = (self.targets.size(), self.one_target.as_ref());
+        let is_taken = lit.technique.set(&self.gpu, settings)?;
+        if !is_taken {
+            lit.exchange(&self.gpu, &self.shading, settings.make(&self.gpu)?, targets)?;
         }
-        lit.exchange(&self.gpu, &self.shading, settings.make(&self.gpu)?, self.targets.size())?;
-        Ok(false)
+        if let Some(pool) = &mut self.pool {
+            pool.settings[pass] = settings.clone();
+        }
+        Ok(is_taken)
     }
 
     /// Puts `new` in the place of pass number `pass` and gives back what was there. Geometry,
@@ -66,7 +68,8 @@ impl Renderer {
         }
         let light = light_of(&self.scene_lights, new.light)?;
         let lit = self.lights.get_mut(pass).ok_or_else(|| no_pass(pass))?;
-        let technique = lit.exchange(&self.gpu, &self.shading, new.technique, self.targets.size())?;
+        let targets = (self.targets.size(), self.one_target.as_ref());
+        let technique = lit.exchange(&self.gpu, &self.shading, new.technique, targets)?;
         lit.light = light;
         Ok(LightPass { light: std::mem::replace(&mut lit.number, new.light), technique })
     }

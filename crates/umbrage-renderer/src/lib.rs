@@ -16,6 +16,7 @@
 mod change;
 mod gbuffer;
 mod lit;
+mod many;
 mod overlay;
 mod radiance;
 #[cfg(not(target_family = "wasm"))]
@@ -27,11 +28,12 @@ mod tonemap;
 
 use gbuffer::GBufferPass;
 use lit::{Lit, Target, Visible};
+use many::Pooled;
 use overlay::Overlay;
 use shading::Shading;
 use targets::{PICTURE, Targets};
 use tonemap::ToneMap;
-use umbrage::{Casters, Error, Gpu, Owner, PassTime, Passes, Recorder, Shader, Stats, Technique};
+use umbrage::{Casters, Error, Gpu, Owner, PassTime, Passes, Recorder, Shader, Stats, Technique, VisibilityTarget};
 use umbrage_core::{Camera, Light, LightShape, LitPart, Scene, Texture};
 use web_time::{Duration, Instant};
 
@@ -64,6 +66,9 @@ pub struct Renderer {
     prepare_ms: f64,
     overlay: Option<Overlay>,
     clips_lights: bool,
+    pool: Option<Pooled>,
+    /// Of all lights, where they share one.
+    one_target: Option<VisibilityTarget>,
 }
 
 impl Renderer {
@@ -82,7 +87,7 @@ impl Renderer {
             }
         }
         let lights = lights.into_iter().map(|LightPass { light, technique }| {
-            let target = Target::new(gpu, &shading, technique.answer(), (width, height))?;
+            let target = Target::new(gpu, &shading, technique.answer(), (width, height), None)?;
             Ok(Lit::new(light, light_of(&scene.lights, light)?, technique, target))
         });
         let textured = scene.lights.iter().any(|l| matches!(l.shape, LightShape::Rect { texture: Some(_), .. }));
@@ -101,6 +106,8 @@ impl Renderer {
             prepare_ms: 0.0,
             overlay: None,
             clips_lights: true,
+            pool: None,
+            one_target: None,
         })
     }
 
@@ -164,6 +171,11 @@ impl Renderer {
             self.lights.iter().for_each(|lit| shade(&mut passes, lit, LitPart::ALL));
             overlay.record(&mut passes, &gbuffer.radiance_view);
         } else {
+            let start = Instant::now();
+            if let Some(pool) = &mut self.pool {
+                pool.share(&self.gpu, &scene, &mut self.lights)?;
+            }
+            preparing += start.elapsed();
             for lit in &mut self.lights {
                 passes.owner(Owner::Light(lit.number));
                 let view = scene.view(&lit.light);

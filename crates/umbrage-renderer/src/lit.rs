@@ -24,10 +24,17 @@ pub(crate) enum Target {
 }
 
 impl Target {
-    pub fn new(gpu: &Gpu, shading: &Shading, answer: Answer, (width, height): (u32, u32)) -> Result<Self, Error> {
+    /// `one` is that of all lights, where they share one.
+    pub fn new(
+        gpu: &Gpu,
+        shading: &Shading,
+        answer: Answer,
+        (width, height): (u32, u32),
+        one: Option<&VisibilityTarget>,
+    ) -> Result<Self, Error> {
         Ok(match answer {
             Answer::Visibility => {
-                let target = VisibilityTarget::new(gpu, width, height)?;
+                let target = one.map_or_else(|| VisibilityTarget::new(gpu, width, height), |one| Ok(one.clone()))?;
                 let slot = shading.slot(gpu, &target);
                 Self::Visibility(target, slot)
             }
@@ -87,10 +94,10 @@ impl Lit {
         gpu: &Gpu,
         shading: &Shading,
         technique: Box<dyn Technique>,
-        size: (u32, u32),
+        (size, one): ((u32, u32), Option<&VisibilityTarget>),
     ) -> Result<Box<dyn Technique>, Error> {
         if technique.answer() != self.target.answer() {
-            self.target = Target::new(gpu, shading, technique.answer(), size)?;
+            self.target = Target::new(gpu, shading, technique.answer(), size, one)?;
             self.is_left_out = false;
         }
         Ok(std::mem::replace(&mut self.technique, technique))

@@ -57,6 +57,9 @@ const KEPT: u32 = 60;
 /// Two sizes by which is measured what maps take.
 const TRIED: [u32; 2] = [64, 128];
 
+/// Coarser levels of larger maps take a little more than those of small ones.
+const TO_SPARE: f64 = 1.01;
+
 impl MapPool {
     /// Of so many bytes. What [`crate::Stats::bytes`] counts of a technique with maps is paid from
     /// it.
@@ -196,7 +199,7 @@ fn measured(gpu: &Gpu, light: &PooledLight<'_>) -> Result<Share, Error> {
     };
     let [small, large] = TRIED.map(f64::from).map(|size| size * size);
     let (of_small, of_large) = (bytes(TRIED[0])?, bytes(TRIED[1])?);
-    let per_texel = (of_large - of_small).max(0.0) / (large - small);
+    let per_texel = TO_SPARE * (of_large - of_small).max(0.0) / (large - small);
     Ok(Share { wanted: 0, fixed: (of_small - per_texel * small).max(0.0) as u64, per_texel })
 }
 
