@@ -63,7 +63,7 @@ pub fn measure(gpu: &Gpu, scene: &Scene, (width, height): (u32, u32), frames: u3
     let mut renderer = Renderer::new(gpu, scene, width, height, lights)?;
     renderer.pool_maps(BUDGET, vec![settings; count])?;
     renderer.set_one_target(true)?;
-    let mut frames_ms = |renderer: &mut Renderer, count: u32, forgets: bool| {
+    let frames_ms = |renderer: &mut Renderer, count: u32, forgets: bool| {
         let start = Instant::now();
         for _ in 0..count {
             if forgets {

@@ -6,7 +6,7 @@ mod plan;
 use crate::settings::{Settings, Value};
 use crate::technique::Technique;
 use crate::{Error, Gpu, Registry, View};
-use plan::{Share, divide, wanted};
+use plan::{Price, Share, TRIED, divide, wanted};
 use umbrage_core::LightKind;
 
 /// Divides a budget of bytes among the maps of many lights.
@@ -25,9 +25,14 @@ pub struct MapPool {
     lights: Vec<Member>,
     shares: Vec<Share>,
     sizes: Vec<u32>,
+    /// What lights of these settings and this kind take.
+    prices: Prices,
     /// How many bytes `sizes` are for.
     divided: Option<u64>,
 }
+
+/// By settings and kind of light.
+type Prices = Vec<(Settings, LightKind, Price)>;
 
 /// A light of a host, as [`MapPool::share`] takes it.
 pub struct PooledLight<'a> {
@@ -44,6 +49,8 @@ pub struct PooledLight<'a> {
 struct Member {
     made_for: Option<(Settings, LightKind)>,
     share: Share,
+    /// Its technique has yet to get maps of `size`.
+    is_new: bool,
     /// Of its maps; 0 where it has none.
     size: u32,
     /// Frames since it lit something that was seen.
@@ -54,17 +61,15 @@ struct Member {
 /// camera may turn back.
 const KEPT: u32 = 60;
 
-/// Two sizes by which is measured what maps take.
-const TRIED: [u32; 2] = [64, 128];
-
-/// Coarser levels of larger maps take a little more than those of small ones.
-const TO_SPARE: f64 = 1.01;
+/// Settings whose prices are kept.
+const PRICES: usize = 64;
 
 impl MapPool {
     /// Of so many bytes. What [`crate::Stats::bytes`] counts of a technique with maps is paid from
     /// it.
     pub fn new(bytes: u64) -> Self {
-        Self { bytes, lights: Vec::new(), shares: Vec::new(), sizes: Vec::new(), divided: None }
+        let (lights, shares, sizes, prices) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { bytes, lights, shares, sizes, prices, divided: None }
     }
 
     /// From the next frame on has so many bytes.
@@ -94,7 +99,7 @@ impl MapPool {
         self.lights.resize_with(lights.len(), Member::default);
         for (light, member) in lights.iter().zip(&mut self.lights) {
             if let Some(most) = most(light.settings) {
-                member.look_at(gpu, light, most)?;
+                member.look_at(gpu, light, most, &mut self.prices)?;
             }
         }
         if !self.divide(KEPT) && !self.divide(0) {
@@ -105,8 +110,10 @@ impl MapPool {
             )));
         }
         let sized = lights.iter_mut().zip(&mut self.lights).zip(&self.sizes);
-        for ((light, member), size) in sized.filter(|((_, member), size)| member.size != **size) {
-            member.resize(gpu, light, *size)?;
+        for ((light, member), size) in sized {
+            if member.size != *size || (member.is_new && *size > 0) {
+                member.resize(gpu, light, *size)?;
+            }
         }
         Ok(())
     }
@@ -132,22 +139,28 @@ impl MapPool {
 
 impl Member {
     /// Finds out what the light wants and what that takes.
-    fn look_at(&mut self, gpu: &Gpu, light: &PooledLight<'_>, most: u32) -> Result<(), Error> {
+    fn look_at(&mut self, gpu: &Gpu, light: &PooledLight<'_>, most: u32, prices: &mut Prices) -> Result<(), Error> {
         let kind = light.view.light.shape.kind();
         let is_known = |(settings, of): &(Settings, LightKind)| *of == kind && settings == light.settings;
         if !self.made_for.as_ref().is_some_and(is_known) {
-            *self = Self { made_for: Some((light.settings.clone(), kind)), ..Self::default() };
+            let made_for = Some((light.settings.clone(), kind));
+            *self = Self { made_for, is_new: true, size: self.size, unseen: self.unseen, ..Self::default() };
         }
-        if self.unseen == 0 && self.size > 0 {
-            self.learn(light.technique.inside().stats().bytes);
+        let held = light.technique.inside().stats().bytes;
+        if self.size == 0 {
+            self.share.idle = held;
+        } else if self.unseen == 0 && !self.is_new {
+            self.learn(held);
         }
         let Some(need) = need(&light.view) else {
             self.unseen = self.unseen.saturating_add(1);
             return Ok(());
         };
         self.unseen = 0;
-        if self.share.per_texel == 0.0 {
-            self.share = measured(gpu, light)?;
+        if self.share.price == Price::default() {
+            let price = price(gpu, light, prices)?;
+            let extra = bytes(gpu, light, TRIED[0])?.saturating_sub(price.of(TRIED[0]));
+            self.share = Share { price, extra, ..self.share };
         }
         self.share.wanted = wanted(need, self.share.wanted, most);
         Ok(())
@@ -155,14 +168,11 @@ impl Member {
 
     /// What moves takes more, for instance, than what stands still.
     fn learn(&mut self, bytes: u64) {
-        if bytes > self.share.bytes(self.size) {
-            let of_maps = bytes.saturating_sub(self.share.fixed);
-            self.share.per_texel = of_maps as f64 / f64::from(self.size).powi(2);
-        }
+        self.share.extra += bytes.saturating_sub(self.share.bytes(self.size));
     }
 
     fn resize(&mut self, gpu: &Gpu, light: &mut PooledLight<'_>, size: u32) -> Result<(), Error> {
-        self.size = size;
+        (self.size, self.is_new) = (size, false);
         if size == 0 {
             *light.technique = light.settings.make(gpu)?;
             return Ok(());
@@ -190,17 +200,30 @@ fn sized(settings: &Settings, size: u32) -> Result<Settings, Error> {
     Ok(settings)
 }
 
-/// What the light's maps take by their size, found with small ones.
-fn measured(gpu: &Gpu, light: &PooledLight<'_>) -> Result<Share, Error> {
-    let bytes = |size: u32| {
-        let mut technique = sized(light.settings, size)?.make(gpu)?;
-        drop(technique.prepare(gpu, &light.view)?);
-        Ok::<_, Error>(technique.inside().stats().bytes as f64)
-    };
-    let [small, large] = TRIED.map(f64::from).map(|size| size * size);
-    let (of_small, of_large) = (bytes(TRIED[0])?, bytes(TRIED[1])?);
-    let per_texel = TO_SPARE * (of_large - of_small).max(0.0) / (large - small);
-    Ok(Share { wanted: 0, fixed: (of_small - per_texel * small).max(0.0) as u64, per_texel })
+/// What maps for such a light take, found once with small ones.
+fn price(gpu: &Gpu, light: &PooledLight<'_>, prices: &mut Prices) -> Result<Price, Error> {
+    let kind = light.view.light.shape.kind();
+    if let Some((_, _, price)) = prices.iter().find(|(settings, of, _)| *of == kind && settings == light.settings) {
+        return Ok(*price);
+    }
+    let mut tried = [0; TRIED.len()];
+    for (tried, size) in tried.iter_mut().zip(TRIED) {
+        *tried = bytes(gpu, light, size)?;
+    }
+    let price = Price::new(tried);
+    // Settings that change in every frame are not all kept.
+    if prices.len() >= PRICES {
+        prices.clear();
+    }
+    prices.push((light.settings.clone(), kind, price));
+    Ok(price)
+}
+
+/// What maps of this size take.
+fn bytes(gpu: &Gpu, light: &PooledLight<'_>, size: u32) -> Result<u64, Error> {
+    let mut technique = sized(light.settings, size)?.make(gpu)?;
+    drop(technique.prepare(gpu, &light.view)?);
+    Ok(technique.inside().stats().bytes)
 }
 
 /// Texels across that a map has use for: as many as the light's range has pixels on the screen, as

@@ -6,25 +6,57 @@ pub(super) struct Share {
     /// Texels across that the screen has use for, a power of two or the most that settings allow; 0
     /// where maps are of no use.
     pub wanted: u32,
-    /// Bytes whatever the size.
-    pub fixed: u64,
-    /// Bytes for each texel across times down, all maps together.
-    pub per_texel: f64,
+    /// What maps of each size take.
+    pub price: Price,
+    /// What this light takes beyond that, whatever the size.
+    pub extra: u64,
+    /// What it takes without maps.
+    pub idle: u64,
 }
 
-/// No map is smaller.
-pub(super) const LEAST: u32 = 32;
+/// Sizes whose bytes are measured.
+pub(super) const TRIED: [u32; 4] = [32, 64, 128, 256];
+
+/// No map is smaller, but where settings say so.
+const LEAST: u32 = TRIED[0];
 
 /// How much farther than to the next power of two a need has to go to count.
 const SLACK: f64 = 1.25;
 
+/// Coarser levels of larger maps take a little more than those of the sizes that are tried.
+const TO_SPARE: f64 = 1.01;
+
+/// Bytes of all maps of a light by their size.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Price {
+    tried: [u64; TRIED.len()],
+}
+
+impl Price {
+    /// From the bytes of maps of the sizes that are tried.
+    pub fn new(tried: [u64; TRIED.len()]) -> Self {
+        Self { tried }
+    }
+
+    /// Bytes of maps of this size, or a little more.
+    pub fn of(&self, size: u32) -> u64 {
+        let [.., half, most] = self.tried;
+        let known = TRIED.iter().zip(self.tried).find(|(tried, _)| **tried >= size);
+        known.map_or_else(
+            || {
+                let squares = [TRIED[2], TRIED[3], size].map(|size| f64::from(size).powi(2));
+                let per_texel = TO_SPARE * most.saturating_sub(half) as f64 / (squares[1] - squares[0]);
+                most + (per_texel * (squares[2] - squares[1])).ceil() as u64
+            },
+            |(_, bytes)| bytes,
+        )
+    }
+}
+
 impl Share {
     /// Bytes with maps of this size.
     pub fn bytes(&self, size: u32) -> u64 {
-        if size == 0 {
-            return 0;
-        }
-        self.fixed + (self.per_texel * f64::from(size).powi(2)).ceil() as u64
+        if size == 0 { self.idle } else { self.price.of(size) + self.extra }
     }
 }
 
@@ -43,7 +75,7 @@ pub(super) fn divide(shares: &[Share], bytes: u64, sizes: &mut Vec<u32>) -> bool
     sizes.extend(shares.iter().map(|share| share.wanted));
     let mut total: u64 = shares.iter().zip(&*sizes).map(|(share, size)| share.bytes(*size)).sum();
     while total > bytes {
-        let can_shrink = |i: &usize| sizes[*i] > LEAST && shares[*i].per_texel > 0.0;
+        let can_shrink = |i: &usize| sizes[*i] > LEAST;
         // How much of it is left, as a fraction; among equals the largest, the last first.
         let left = |i: &usize| f64::from(sizes[*i]) / f64::from(shares[*i].wanted);
         let order = |a: &usize, b: &usize| left(a).total_cmp(&left(b)).then(sizes[*a].cmp(&sizes[*b])).then(a.cmp(b));
@@ -61,7 +93,8 @@ mod tests {
     use super::*;
 
     fn cube(wanted: u32) -> Share {
-        Share { wanted, fixed: 1000, per_texel: 24.0 }
+        let price = Price::new(TRIED.map(|size| 1000 + 24 * u64::from(size).pow(2)));
+        Share { wanted, price, extra: 0, idle: 10 }
     }
 
     fn divided(shares: &[Share], bytes: u64) -> Option<Vec<u32>> {
@@ -81,7 +114,7 @@ mod tests {
     fn a_small_budget_is_kept_and_divided_by_importance() {
         let sizes = divided(&[cube(1024), cube(256), cube(64), cube(0)], 2 << 20).unwrap();
         assert!(sizes[0] > sizes[1] && sizes[1] >= sizes[2] && sizes[2] >= LEAST && sizes[3] == 0, "{sizes:?}");
-        assert_eq!(divided(&[cube(1024); 64], 64 * 30_000), Some(vec![LEAST; 64]));
+        assert_eq!(divided(&[cube(1024); 64], 64 * 26_000), Some(vec![LEAST; 64]));
         assert_eq!(divided(&[cube(1024); 64], 64 * 20_000), None);
     }
 
