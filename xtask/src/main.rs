@@ -2,6 +2,7 @@
 //! needs Rust and git only.
 
 mod bench;
+mod bevy;
 mod browser;
 mod demo;
 mod docs;
@@ -34,6 +35,7 @@ cargo xtask COMMAND
           render with every technique, and run the library's tests, under Vulkan's validation layer; what it reports
           has to be known
   bench   measure the standard set of scenes and write benchmarks/<date>-<machine>/
+  bevy    test bevy_umbrage and draw its example with shadows of its own and of Bevy, where a toolchain is new enough
   fuzz MINUTES
           read damaged files of every kind; what fails is kept in out/fuzz/
   drivers [--core] [NAME=FILE ...]
@@ -70,6 +72,7 @@ fn run() -> Result<()> {
         ["soak", minutes] => soak::run(minutes),
         ["validation"] => validation::run(),
         ["bench"] => bench::run(),
+        ["bevy"] => bevy::run(),
         ["fuzz", minutes] => fuzz::run(minutes),
         ["drivers", rest @ ..] => drivers::run(rest),
         ["docs"] => docs::tables(),
