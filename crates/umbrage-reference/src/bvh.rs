@@ -2,7 +2,7 @@
 
 use crate::shaft::Shaft;
 use crate::triangle::{Ray, SeenTriangle, Triangle};
-use glam::{DVec3, Vec3A};
+use glam::DVec3;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::{Bvh2, leaf_collapser::collapse, reinsertion::ReinsertionOptimizer};
 use obvhs::ray::{Ray as BoxRay, RayHit};
@@ -101,7 +101,8 @@ impl Bvh {
         pending.extend((!self.tree.nodes.is_empty()).then_some(0_u32));
         while let Some(node) = pending.pop().and_then(|i| self.tree.nodes.get(i as usize)) {
             let bounds = node.aabb();
-            if !shaft.may_touch_box(bounds.min.as_dvec3(), bounds.max.as_dvec3()) {
+            let [min, max] = [bounds.min, bounds.max].map(|v| DVec3::from_array(v.to_array().map(f64::from)));
+            if !shaft.may_touch_box(min, max) {
                 continue;
             }
             if !node.is_leaf() {
@@ -139,10 +140,10 @@ impl Bvh {
         }
         let start = (middle - reach).max(0.0);
         let t_max = ray.t_max * length - start;
-        let origin = (ray.origin + direction * start).as_vec3a();
+        let origin = vector(ray.origin + direction * start);
         let far_behind = middle < -reach;
         let t_max = (t_max > 0.0 && !far_behind).then(|| self.rounded_up(t_max))?;
-        Some((BoxRay::new(origin, direction.as_vec3a(), 0.0, t_max), start))
+        Some((BoxRay::new(origin, vector(direction), 0.0, t_max), start))
     }
 
     fn rounded_up(&self, length: f64) -> f32 {
@@ -170,13 +171,17 @@ fn build(boxes: &[Padded]) -> Bvh2 {
     tree
 }
 
+/// A vector of the hierarchy's crate, which may have another version of `glam` than we have.
+fn vector<V: From<[f32; 3]>>(v: DVec3) -> V {
+    v.as_vec3().to_array().into()
+}
+
 /// The box of a triangle, grown.
 struct Padded(Aabb);
 
 impl Padded {
     fn around(triangle: &Triangle, margin: f64) -> Self {
         let [a, b, c] = *triangle.corners();
-        let vector = |v: DVec3| -> Vec3A { v.as_vec3a() };
         Self(Aabb::new(vector(a.min(b).min(c) - margin), vector(a.max(b).max(c) + margin)))
     }
 }

@@ -26,13 +26,12 @@ pub(crate) fn build(things: &[impl Boundable], params: BvhBuildParams) -> Bvh2 {
 mod tests {
     use super::*;
     use obvhs::aabb::Aabb;
-    use umbrage_core::glam::Vec3A;
 
     #[test]
     fn the_hierarchy_is_that_of_the_crate() {
         let boxes: Vec<Aabb> = (0..500)
-            .map(|i| Vec3A::new((i * 37 % 100) as f32, (i * 11 % 17) as f32, (i * 7 % 23) as f32))
-            .map(|p| Aabb::new(p, p + 1.5))
+            .map(|i| [i * 37 % 100, i * 11 % 17, i * 7 % 23].map(|v| v as f32))
+            .map(|p| Aabb::new(p.into(), p.map(|v| v + 1.5).into()))
             .collect();
         for params in [BvhBuildParams::fastest_build, BvhBuildParams::medium_build, BvhBuildParams::slow_build] {
             let theirs = obvhs::bvh2::builder::build_bvh2(&boxes, params(), &mut Default::default());

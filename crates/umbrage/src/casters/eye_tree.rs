@@ -7,7 +7,7 @@ use obvhs::bvh2::Bvh2;
 use obvhs::ray::Ray;
 use obvhs::{Boundable, BvhBuildParams};
 use umbrage_core::adjacency::Adjacency;
-use umbrage_core::glam::{DMat3, DVec2, DVec3, DVec4, Vec3A};
+use umbrage_core::glam::{DMat3, DVec2, DVec3, DVec4};
 use umbrage_core::silhouette::facing;
 use umbrage_core::{Bounds, Mesh};
 
@@ -146,8 +146,9 @@ fn distance_to_segment(a: DVec2, b: DVec2) -> f64 {
     (a + along * share).length()
 }
 
-fn vector(v: DVec3) -> Vec3A {
-    v.as_vec3a()
+/// A vector of the hierarchy's crate, which may have another version of `glam` than we have.
+fn vector<V: From<[f32; 3]>>(v: DVec3) -> V {
+    v.as_vec3().to_array().into()
 }
 
 /// The box of a triangle, grown.

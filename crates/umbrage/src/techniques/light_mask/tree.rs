@@ -4,7 +4,7 @@ use crate::{bvh, shader::shader_struct};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::{Boundable, BvhBuildParams};
-use umbrage_core::glam::{Vec3, Vec3A};
+use umbrage_core::glam::Vec3;
 
 shader_struct! {
     /// A node, see `light_mask.wgsl`.
@@ -24,7 +24,8 @@ pub(super) struct Boxed(pub Vec3, pub Vec3);
 
 impl Boundable for Boxed {
     fn aabb(&self) -> Aabb {
-        Aabb::new(Vec3A::from(self.0), Vec3A::from(self.1))
+        // Through arrays: the crate may have another version of `glam` than we have.
+        Aabb::new(self.0.to_array().into(), self.1.to_array().into())
     }
 }
 
