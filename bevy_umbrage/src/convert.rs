@@ -1,6 +1,7 @@
 //! Bevy's meshes, materials and pictures as those of umbrage. The two have different versions of
 //! their vector crate, so everything goes through arrays.
 
+use bevy::color::ColorToComponents;
 use bevy::image::{Image, ImageAddressMode, ImageFilterMode, ImageSampler, ImageSamplerDescriptor};
 use bevy::math::{Affine3A, Mat4};
 use bevy::mesh::{Indices, Mesh, MeshVertexAttribute, PrimitiveTopology, VertexAttributeValues as Values};

@@ -12,7 +12,7 @@
 //! use bevy_umbrage::umbrage::{depth_maps::Kernel, techniques::pcf::Pcf};
 //!
 //! fn setup(mut commands: Commands) {
-//!     commands.spawn((Camera3d::default(), UmbrageCamera));
+//!     commands.spawn(UmbrageCamera);
 //!     let soft = Pcf { kernel: Kernel::Square7, ..Default::default() };
 //!     commands.spawn((DirectionalLight::default(), UmbrageLight::from(soft)));
 //!     commands.spawn((PointLight::default(), Transform::from_xyz(0.0, 3.0, 0.0), UmbrageLight::default()));
@@ -75,9 +75,9 @@ impl Plugin for UmbragePlugin {
     }
 }
 
-/// A camera that sees what lights with [`UmbrageLight`] give off. It needs Bevy's deferred prepass
+/// A `Camera3d` that sees what lights with [`UmbrageLight`] give off. It needs Bevy's deferred prepass
 /// with depth, one sample a pixel, and a picture that tones are mapped of after all light is in it,
 /// and brings these with it. The camera shows its whole target, not a viewport in it.
 #[derive(Component, Clone, Copy, Debug, Default)]
-#[require(DepthPrepass, DeferredPrepass, Hdr, Msaa = Msaa::Off)]
+#[require(Camera3d, DepthPrepass, DeferredPrepass, Hdr, Msaa = Msaa::Off)]
 pub struct UmbrageCamera;

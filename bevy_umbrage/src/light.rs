@@ -182,7 +182,7 @@ pub fn take_over(
 
 /// Has Bevy look at a light again that umbrage no longer does.
 pub fn give_back(
-    removed: On<Remove, UmbrageLight>,
+    removed: On<Remove<UmbrageLight>>,
     mut lights: Query<AnyOf<(&mut DirectionalLight, &mut PointLight, &mut SpotLight)>>,
 ) {
     let Ok((sun, point, spot)) = lights.get_mut(removed.entity) else { return };

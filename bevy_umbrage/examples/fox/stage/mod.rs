@@ -7,14 +7,15 @@ mod set;
 
 use bevy::app::App;
 use bevy::asset::UnapprovedPathMode;
-use bevy::camera::{Hdr, RenderTarget};
-use bevy::core_pipeline::prepass::{DeferredPrepass, DepthPrepass};
-use bevy::core_pipeline::tonemapping::Tonemapping;
+#[cfg(test)]
+use bevy::camera::Hdr;
+use bevy::camera::RenderTarget;
+use bevy::core_pipeline::tonemapping::{DebandDither, Tonemapping};
 use bevy::prelude::*;
 use bevy::render::RenderPlugin;
 use bevy::render::gpu_readback::{Readback, ReadbackComplete};
 use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
-use bevy::render::render_resource::{PollType, TextureFormat};
+use bevy::render::render_resource::{PollType, TextureFormat, TextureUsages};
 use bevy::render::renderer::RenderDevice;
 use bevy::time::TimeUpdateStrategy;
 use bevy::window::ExitCondition;
@@ -117,13 +118,14 @@ impl Stage {
         app.finish();
         app.cleanup();
         let world = app.world_mut();
-        let image = Image::new_target_texture(wanted.size.0, wanted.size.1, wanted.format, None);
+        let mut image = Image::new_target_texture(wanted.size.0, wanted.size.1, wanted.format, None);
+        image.texture_descriptor.usage |= TextureUsages::COPY_SRC;
         let picture = world.resource_mut::<Assets<Image>>().add(image);
         let camera = world.spawn((
-            Camera3d::default(),
-            RenderTarget::Image(picture.clone().into()),
             UmbrageCamera,
+            RenderTarget::Image(picture.clone().into()),
             Tonemapping::None,
+            DebandDither::Disabled,
             set::camera(),
         ));
         let camera = camera.id();
@@ -238,7 +240,7 @@ impl Stage {
     /// Milliseconds on the GPU by light and pass, in words.
     pub fn gpu_times(&self) -> String {
         let times = self.app.world().resource::<UmbrageTimes>().latest();
-        let of = |t: &bevy_umbrage::umbrage::PassTime| format!("{} {} {:.2} ms", t.owner, t.pass, t.time_ms);
+        let of = |t: &umbrage::PassTime| format!("{} {} {:.2} ms", t.owner, t.pass, t.time_ms);
         times.iter().map(of).collect::<Vec<_>>().join(", ")
     }
 }

@@ -53,15 +53,15 @@ pub fn build(world: &mut World) -> (Entity, Entity) {
     world.spawn((bulb, MeshMaterial3d(glow), Transform::from_translation(LAMP), NotShadowCaster));
     let cascades = CascadeShadowConfigBuilder { first_cascade_far_bound: 4.0, maximum_distance: 25.0, ..default() };
     let sun = world.spawn((
-        DirectionalLight { illuminance: 2200.0, color: Color::linear_rgb(1.0, 0.95, 0.85), ..default() },
+        DirectionalLight { illuminance: 2600.0, color: Color::linear_rgb(1.0, 0.95, 0.85), ..default() },
         // Four times as wide as the sun of the earth, so that penumbras show.
         SunDisk { angular_size: 0.037, intensity: 1.0 },
         cascades.build(),
-        Transform::from_xyz(2.0, 3.4, 1.2).looking_at(Vec3::ZERO, Vec3::Y),
+        Transform::from_xyz(-1.6, 2.6, -2.6).looking_at(Vec3::ZERO, Vec3::Y),
     ));
     let sun = sun.id();
     let lamp = PointLight {
-        intensity: 26_000.0,
+        intensity: 80_000.0,
         color: Color::linear_rgb(1.0, 0.75, 0.45),
         range: 12.0,
         radius: 0.06,
