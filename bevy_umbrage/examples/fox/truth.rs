@@ -66,6 +66,7 @@ fn camera(stage: &mut Stage) -> Result<Camera> {
         up: DVec3::Y,
         fov_y_deg: f64::from(lens.fov).to_degrees(),
         near: lens.near.into(),
+        ..Default::default()
     })
 }
 
