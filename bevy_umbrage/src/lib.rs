@@ -1,10 +1,10 @@
 //! Shadows of [umbrage](umbrage) in Bevy: every light may have a technique of its own.
 //!
-//! A [`UmbrageLight`] beside a `DirectionalLight`, `PointLight` or `SpotLight` takes that light over
-//! from Bevy: colour, strength, range, radius and cone stay those of Bevy's component, Bevy itself
-//! lights nothing with it any more, and what it gives off is added after Bevy's deferred lighting,
-//! shaded as Bevy does and multiplied by the share of it that each pixel sees. A camera with
-//! [`UmbrageCamera`] sees that.
+//! A [`UmbrageLight`] beside a `DirectionalLight`, `PointLight` or `SpotLight` takes that light
+//! over from Bevy: colour, strength, range, radius and cone stay those of Bevy's component, Bevy
+//! itself lights nothing with it any more, and what it gives off is added after Bevy's deferred
+//! lighting, shaded as Bevy does and multiplied by the share of it that each pixel sees. A camera
+//! with [`UmbrageCamera`] sees that.
 //!
 //! ```no_run
 //! use bevy::prelude::*;
@@ -15,7 +15,8 @@
 //!     commands.spawn(UmbrageCamera);
 //!     let soft = Pcf { kernel: Kernel::Square7, ..Default::default() };
 //!     commands.spawn((DirectionalLight::default(), UmbrageLight::from(soft)));
-//!     commands.spawn((PointLight::default(), Transform::from_xyz(0.0, 3.0, 0.0), UmbrageLight::default()));
+//!     let above = Transform::from_xyz(0.0, 3.0, 0.0);
+//!     commands.spawn((PointLight::default(), above, UmbrageLight::default()));
 //! }
 //!
 //! fn main() {
@@ -75,9 +76,9 @@ impl Plugin for UmbragePlugin {
     }
 }
 
-/// A `Camera3d` that sees what lights with [`UmbrageLight`] give off. It needs Bevy's deferred prepass
-/// with depth, one sample a pixel, and a picture that tones are mapped of after all light is in it,
-/// and brings these with it. The camera shows its whole target, not a viewport in it.
+/// A `Camera3d` that sees what lights with [`UmbrageLight`] give off. It needs Bevy's deferred
+/// prepass with depth, one sample a pixel, and a picture that tones are mapped of after all light
+/// is in it, and brings these with it. The camera shows its whole target, not a viewport in it.
 #[derive(Component, Clone, Copy, Debug, Default)]
 #[require(Camera3d, DepthPrepass, DeferredPrepass, Hdr, Msaa = Msaa::Off)]
 pub struct UmbrageCamera;

@@ -16,8 +16,8 @@ use umbrage::{Configure, Settings};
 /// The technique that finds the shadows of the `DirectionalLight`, `PointLight` or `SpotLight` of
 /// the same entity. What that component says of shadow maps does not count.
 ///
-/// A `SunDisk` gives a directional light its angle, `radius` makes a point light a sphere and a spot
-/// light a disc: techniques for soft shadows go by these, others take the middle.
+/// A `SunDisk` gives a directional light its angle, `radius` makes a point light a sphere and a
+/// spot light a disc: techniques for soft shadows go by these, others take the middle.
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct UmbrageLight {
     /// The technique with its settings.
@@ -55,7 +55,8 @@ pub struct Emission {
     pub radius: f32,
     /// Metres; beyond there is no light.
     pub range: f32,
-    /// Factor and summand that make the strength of the cosine to a spot's axis; 0 and 1 for others.
+    /// Factor and summand that make the strength of the cosine to a spot's axis; 0 and 1 for
+    /// others.
     pub cone: [f32; 2],
 }
 

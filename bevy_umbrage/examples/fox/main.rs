@@ -4,9 +4,9 @@
 //!
 //! Renders so many frames with the shadows of each kind in turn, prints the time that a frame took,
 //! and writes the last moment with each as `fox-umbrage.png` and so on. Without a glTF file, whose
-//! second animation is played, the fox is one made in code. `--sun TECHNIQUE` and `--lamp TECHNIQUE`
-//! say what umbrage's lights use. `--truth SAMPLES` traces rays for the last moment and prints how
-//! far the pictures are from it.
+//! second animation is played, the fox is one made in code. `--sun TECHNIQUE` and
+//! `--lamp TECHNIQUE` say what umbrage's lights use. `--truth SAMPLES` traces rays for the last
+//! moment and prints how far the pictures are from it.
 
 mod stage;
 #[cfg(test)]

@@ -95,8 +95,8 @@ type Change = fn(&mut World);
 const CHANGES: [(Change, &str); 8] = [
     (|_| (), "nothing"),
     (move_block, "the block is elsewhere"),
-    (|world| drop(named(world, "ball").insert(NotShadowCaster)), "the ball casts nothing"),
-    (|world| drop(named(world, "ball").remove::<NotShadowCaster>()), "it does again"),
+    (|world| drop(named(world, "globe").insert(NotShadowCaster)), "the globe casts nothing"),
+    (|world| drop(named(world, "globe").remove::<NotShadowCaster>()), "it does again"),
     (|world| named(world, "column").despawn(), "a column is gone"),
     (close_lattice, "the lattice lets no light through"),
     (|world| drop(named(world, "fox").insert(Visibility::Hidden)), "the fox is hidden"),

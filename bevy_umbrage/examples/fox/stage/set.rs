@@ -37,7 +37,7 @@ pub fn build(world: &mut World) -> (Entity, Entity) {
     let floor = mesh(Plane3d::default().mesh().size(14.0, 14.0).build());
     let column = mesh(Cylinder::new(0.16, 1.8).into());
     let block = mesh(Cuboid::new(0.7, 0.5, 0.7).into());
-    let ball = mesh(Sphere::new(0.28).into());
+    let globe = mesh(Sphere::new(0.28).into());
     let panel = mesh(Rectangle::new(1.6, 0.9).into());
     let bulb = mesh(Sphere::new(0.06).into());
     world.spawn((Name::new("floor"), floor, MeshMaterial3d(stone.clone())));
@@ -47,7 +47,7 @@ pub fn build(world: &mut World) -> (Entity, Entity) {
     }
     let turned = Transform::from_xyz(1.7, 0.25, -0.3).with_rotation(Quat::from_rotation_y(0.5));
     world.spawn((Name::new("block"), block, MeshMaterial3d(red), turned));
-    world.spawn((Name::new("ball"), ball, MeshMaterial3d(brass), Transform::from_xyz(1.7, 0.78, -0.3)));
+    world.spawn((Name::new("globe"), globe, MeshMaterial3d(brass), Transform::from_xyz(1.7, 0.78, -0.3)));
     let turned = Transform::from_xyz(-1.5, 0.45, 0.3).with_rotation(Quat::from_rotation_y(0.9));
     world.spawn((Name::new("lattice"), panel, MeshMaterial3d(fence), turned));
     world.spawn((bulb, MeshMaterial3d(glow), Transform::from_translation(LAMP), NotShadowCaster));
