@@ -20,6 +20,7 @@ Examples:
   umbrage bench bunny.scene.toml --light 0 --csv > bench.csv
   umbrage bench atrium --techniques volume,volume:extrude=cpu --moving lights --lights-together
   umbrage bench city --light 0 --techniques shadow-map,pcf --path strafe
+  umbrage bench city:62.5 --light 0 --techniques shadow-map --churn 100
 
 Techniques take turns frame by frame. `floor` is one full-screen pass that reads depth and writes visibility; \
 `bare-minimum` is a depth-only pass into a map of the same size, or into as many as there are splits, and a full-screen pass with one look-up.
@@ -54,6 +55,9 @@ pub struct Bench {
     /// Measure the wrong single-pass algorithm, too: one overlay for the shadows of all lights
     #[arg(long, requires = "lights_together")]
     overlay: bool,
+    /// Remove and insert again so many instances in every frame, and measure the CPU's time for that
+    #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "path")]
+    churn: u32,
     /// Count fragments in one more frame, and the bytes that they move
     #[arg(long)]
     bytes: bool,
@@ -87,6 +91,7 @@ impl Bench {
             together: self.lights_together,
             overlay: self.overlay,
             bytes: self.bytes,
+            churn: self.churn,
             command: context.line.clone(),
         };
         let report = plan.run(&gpu, &Bars::default())?;

@@ -42,7 +42,7 @@ impl Edge {
 }
 
 /// The triangles of a mesh, their planes and what joins them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Adjacency {
     /// Indices into [`Mesh::positions`], of all vertices at the same place the first. Triangles
     /// with a corner that does not exist or is not finite and those with two corners at one place

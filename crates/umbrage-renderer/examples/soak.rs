@@ -138,7 +138,7 @@ impl Soak {
         }
         for (number, instance) in self.scene.instances.iter().enumerate() {
             let moved = DAffine3::from_translation(shift) * instance.world_from_mesh;
-            self.renderer.casters_mut().move_instance(&self.gpu, number, &moved);
+            move_to(&mut self.renderer, number, &moved)?;
         }
         if let Some(LightShape::Point { position } | LightShape::Sphere { position, .. }) =
             self.renderer.light_mut(0).map(|light| &mut light.shape)
@@ -156,7 +156,7 @@ impl Soak {
     fn off_from_new(&mut self) -> Outcome<f64> {
         self.renderer.resize(SIZES[0].0, SIZES[0].1)?;
         for (number, instance) in self.scene.instances.iter().enumerate() {
-            self.renderer.casters_mut().move_instance(&self.gpu, number, &instance.world_from_mesh);
+            move_to(&mut self.renderer, number, &instance.world_from_mesh)?;
         }
         let mut most: f64 = 0.0;
         for info in techniques() {
@@ -176,5 +176,12 @@ impl Soak {
             most = most.max(off);
         }
         Ok(most)
+    }
+}
+
+fn move_to(renderer: &mut Renderer, number: usize, world_from_mesh: &DAffine3) -> Result<(), umbrage::Error> {
+    match renderer.casters().instance(number) {
+        Some(instance) => renderer.casters_mut().move_instance(instance, world_from_mesh),
+        None => Ok(()),
     }
 }

@@ -135,7 +135,12 @@ impl Renderer {
         umbrage::warm_up(&self.gpu, technique, lights, receivers, &camera)
     }
 
-    /// The scene's geometry on the GPU, to move instances.
+    /// The scene's geometry on the GPU.
+    pub fn casters(&self) -> &Casters {
+        &self.casters
+    }
+
+    /// The same, to move instances, and to have others come and go.
     pub fn casters_mut(&mut self) -> &mut Casters {
         &mut self.casters
     }

@@ -64,6 +64,7 @@ pub struct Renderer {
     textures: Vec<Texture>,
     ambient: [f32; 3],
     prepare_ms: f64,
+    record_casters_ms: f64,
     overlay: Option<Overlay>,
     clips_lights: bool,
     pool: Option<Pooled>,
@@ -104,6 +105,7 @@ impl Renderer {
             textures: if textured { scene.textures.clone() } else { Vec::new() },
             ambient: scene.ambient.to_array(),
             prepare_ms: 0.0,
+            record_casters_ms: 0.0,
             overlay: None,
             clips_lights: true,
             pool: None,
@@ -153,8 +155,10 @@ impl Renderer {
         let camera = camera.view(receivers.size.0, receivers.size.1);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let mut passes = self.recorder.begin(&mut encoder);
-        passes.owner(Owner::Host("poses"));
-        self.casters.record_poses(&mut passes);
+        passes.owner(Owner::Host("casters"));
+        let start = Instant::now();
+        self.casters.record(&mut passes)?;
+        self.record_casters_ms = start.elapsed().as_secs_f64() * 1e3;
         passes.owner(Owner::Host("gbuffer"));
         self.gbuffer.record(&self.gpu, &mut passes, gbuffer, &self.casters, &camera, self.ambient);
         let scene = Visible { camera, receivers, casters: &self.casters, textures: &self.textures };
@@ -230,6 +234,11 @@ impl Renderer {
     /// one.
     pub fn prepare_ms(&self) -> f64 {
         self.prepare_ms
+    }
+
+    /// CPU time that [`Casters::record`] took in the last frame, milliseconds.
+    pub fn record_casters_ms(&self) -> f64 {
+        self.record_casters_ms
     }
 
     /// What the technique of pass number `pass` drew and holds.

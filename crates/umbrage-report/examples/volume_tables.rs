@@ -209,6 +209,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             together: lights == Lights::Four,
             overlay: lights == Lights::Four,
             bytes: false,
+            churn: 0,
             command: command.clone(),
         };
         let report = plan.run(&gpu, &Lines)?;

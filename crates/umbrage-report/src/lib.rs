@@ -8,6 +8,7 @@
 mod bench;
 mod cell;
 mod choice;
+mod churn;
 mod column;
 mod compare;
 mod error;

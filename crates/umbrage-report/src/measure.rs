@@ -11,6 +11,9 @@ use umbrage_renderer::Renderer;
 pub(crate) struct Frames {
     frame_ms: Vec<f64>,
     prepare_ms: Vec<f64>,
+    change_ms: Vec<f64>,
+    /// What changing casters took before the next frame, where they are.
+    pub changed_ms: Option<f64>,
     passes: Vec<Vec<PassTime>>,
 }
 
@@ -22,6 +25,7 @@ impl Frames {
         renderer.wait()?;
         self.frame_ms.push(start.elapsed().as_secs_f64() * 1e3);
         self.prepare_ms.push(renderer.prepare_ms());
+        self.change_ms.extend(self.changed_ms.take().map(|ms| ms + renderer.record_casters_ms()));
         self.passes.push(renderer.times());
         Ok(())
     }
@@ -64,6 +68,12 @@ impl Frames {
     /// The CPU time of preparing techniques, milliseconds.
     pub(crate) fn prepare(&self) -> Spread {
         Spread::of(self.prepare_ms.iter().copied())
+    }
+
+    /// The CPU time of changing casters and of recording that, milliseconds; `None` where they did
+    /// not change.
+    pub(crate) fn change(&self) -> Option<Spread> {
+        (!self.change_ms.is_empty()).then(|| Spread::of(self.change_ms.iter().copied()))
     }
 
     /// GPU time of each pass, in the order in which they were recorded. Passes of one name in a

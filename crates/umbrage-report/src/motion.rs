@@ -4,7 +4,6 @@
 use crate::error::Error;
 use serde::Serialize;
 use std::{f64::consts::TAU, str::FromStr};
-use umbrage::Gpu;
 use umbrage_core::glam::{DAffine3, DVec3};
 use umbrage_core::{Bounds, Camera, Instance, LightShape, Scene};
 use umbrage_renderer::Renderer;
@@ -98,7 +97,7 @@ impl<'a> Motion<'a> {
 
     /// Moves the lights (one a pass) and the casters of `renderer` to where they are in frame
     /// `frame`.
-    pub(crate) fn apply(&self, gpu: &Gpu, renderer: &mut Renderer, lights: &[usize], frame: u32) {
+    pub(crate) fn apply(&self, renderer: &mut Renderer, lights: &[usize], frame: u32) -> Result<(), umbrage::Error> {
         if self.moving.moves(Moving::Lights) {
             for (pass, &number) in lights.iter().enumerate() {
                 if let Some(light) = renderer.light_mut(pass) {
@@ -109,11 +108,16 @@ impl<'a> Motion<'a> {
         for &(number, depth) in &self.sinking {
             let down = DVec3::NEG_Y * (depth * 0.5 * (1.0 - circle(frame, number)[0]));
             let world_from_mesh = DAffine3::from_translation(down) * self.scene.instances[number].world_from_mesh;
-            renderer.casters_mut().move_instance(gpu, number, &world_from_mesh);
+            if let Some(instance) = renderer.casters().instance(number) {
+                renderer.casters_mut().move_instance(instance, &world_from_mesh)?;
+            }
         }
         for &number in &self.bending {
-            renderer.casters_mut().set_pose(number, &self.joints(number, frame));
+            if let Some(instance) = renderer.casters().instance(number) {
+                renderer.casters_mut().set_pose(instance, &self.joints(number, frame))?;
+            }
         }
+        Ok(())
     }
 
     /// The joints of an instance in frame `frame`: its animation runs once in a period, starting
@@ -207,7 +211,7 @@ mod tests {
     /// Needs a graphics adapter.
     #[test]
     fn pictures_change_on_the_way_and_are_the_same_after_a_round() {
-        let gpu = Gpu::request(None).unwrap();
+        let gpu = umbrage::Gpu::request(None).unwrap();
         let scene = (scenes::find("tentacles").unwrap().build)(0.1);
         for moving in Moving::ALL {
             let motion = Motion::new(moving, &scene);
@@ -215,7 +219,7 @@ mod tests {
             let technique = info.settings(&[]).unwrap().make(&gpu).unwrap();
             let mut renderer = Renderer::new(&gpu, &scene, 96, 72, vec![LightPass { light: 0, technique }]).unwrap();
             let [start, way, end] = [0, PERIOD / 2, PERIOD].map(|frame| {
-                motion.apply(&gpu, &mut renderer, &[0], frame);
+                motion.apply(&mut renderer, &[0], frame).unwrap();
                 renderer.frame(&motion.camera(frame)).unwrap();
                 renderer.visibility(0).unwrap().data
             });

@@ -177,6 +177,7 @@ fn bench(scenes: Vec<(Source, Vec<usize>)>, choices: Vec<Choice>, bytes: bool) -
         samples: 1,
         together: false,
         overlay: false,
+        churn: 0,
         bytes,
         command: Vec::new(),
     }

@@ -55,6 +55,7 @@ pub fn frames(count: u32) -> Result<umbrage::core::Image<f32>, Box<dyn std::erro
     // umbrage, once.
     let gpu = Gpu::new(device.clone(), queue.clone());
     let mut casters = Casters::new(&gpu, &scene)?;
+    let moving = casters.instance(1).ok_or("the cube is instance 1 of the scene")?;
     let receivers = Receivers::new(&gpu, &depth, None, SIZE)?;
     let visibility = VisibilityTarget::new(&gpu, SIZE.0, SIZE.1)?;
     let mut technique = Pcf { kernel: Kernel::Square5, ..Default::default() }.make(&gpu)?;
@@ -66,12 +67,13 @@ pub fn frames(count: u32) -> Result<umbrage::core::Image<f32>, Box<dyn std::erro
         let mut encoder = device.create_command_encoder(&Default::default());
         host.record(&device, &mut encoder, &depth, &scene);
 
-        // umbrage: the light's visibility, in the same encoder.
-        casters.move_instance(&gpu, 1, &turned);
+        // umbrage: what has changed, then the light's visibility, in the same encoder.
+        casters.move_instance(moving, &turned)?;
+        let mut passes = recorder.begin(&mut encoder);
+        casters.record(&mut passes)?;
         let view =
             View { camera: host_camera(), receivers: &receivers, casters: &casters, light: &light, textures: &[] };
         let prepared = technique.prepare(&gpu, &view)?;
-        let mut passes = recorder.begin(&mut encoder);
         prepared.record(&mut passes, &visibility)?;
         passes.finish();
         queue.submit([encoder.finish()]);

@@ -5,11 +5,17 @@
 //! mesh with a list of instance numbers as its per-instance vertex buffer: culling writes that list
 //! and nothing else.
 
+mod batches;
 mod before_eye;
+mod changed;
 mod check;
 mod draw_list;
 mod edges;
 mod eye_tree;
+mod geometry;
+mod ids;
+mod instances;
+mod journal;
 mod material;
 mod moves;
 mod pipeline;
@@ -17,14 +23,20 @@ mod placed;
 mod places;
 mod planes;
 mod poses;
+mod record;
+mod region;
 mod seen;
 mod sides;
+mod store;
+mod things;
 mod vertices;
 mod world;
 pub(crate) use before_eye::before_eye;
 pub(crate) use draw_list::{DrawList, InstanceNumbers, Light, Surface};
 pub(crate) use edges::{Edges, MeshEdges};
 pub(crate) use eye_tree::largest_stretch;
+pub use ids::{InstanceId, MaterialId, MeshId, TextureId};
+pub use instances::Placement;
 pub(crate) use pipeline::CasterDraw;
 pub(crate) use placed::Placed;
 pub(crate) use places::Places;

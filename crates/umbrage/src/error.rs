@@ -77,6 +77,14 @@ pub enum Error {
     /// A camera sees nothing.
     #[error("{0}")]
     Camera(String),
+    /// A handle that names nothing.
+    #[error(
+        "this handle names no {what} of these casters: it was removed, or is of other casters; keep the handle that adding it gave"
+    )]
+    Handle {
+        /// What it would be the handle of: instance, mesh, material, texture.
+        what: &'static str,
+    },
     /// A size is 0 or over the adapter's limit.
     #[error("{what} of {size} is {}; the adapter allows 1 to {limit}", if *.size == 0 { "empty" } else { "too large" })]
     Size {

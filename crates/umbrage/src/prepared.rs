@@ -15,12 +15,14 @@ impl dyn Technique {
     /// # Errors
     /// [`Error::Light`] and [`Error::Camera`] for numbers that are not finite or out of their range;
     /// directions need not be of unit length. [`Error::Unsupported`] for a light or view that the
-    /// technique can't do, [`Error::Size`] beyond the limits. [`Error::Order`] once where the host
+    /// technique can't do, [`Error::Size`] beyond the limits. [`Error::Scene`] where casters have
+    /// changed since [`Casters::record`](crate::Casters::record). [`Error::Order`] once where the host
     /// submitted frames in another order than they were recorded in, [`Error::DeviceLost`].
     pub fn prepare<'t>(&'t mut self, gpu: &Gpu, view: &View<'t>) -> Result<Prepared<'t>, Error> {
         gpu.check_loss()?;
         gpu.settle();
         gpu.check_fault()?;
+        view.casters.check_recorded()?;
         let checked = Checked::new(view)?;
         self.prepare_view(gpu, &checked.view(), InOrder::new())?;
         Ok(Prepared { technique: self, checked })

@@ -37,7 +37,7 @@ const fn shown(name: &'static str, field: Field, heading: &'static str, text: Fi
 }
 
 /// Of CSV, in its order.
-pub(crate) const COLUMNS: [Column; 28] = [
+pub(crate) const COLUMNS: [Column; 31] = [
     of("scene", |row| row.scene.source.clone()),
     of("light", |row| row.light.light.map_or(String::new(), |number| number.to_string())),
     of("kind", |row| row.light.kind.into()),
@@ -51,6 +51,9 @@ pub(crate) const COLUMNS: [Column; 28] = [
     shown("prepare_ms", |row| spread(row, PREPARE, MEDIAN), "prepare ms", |row| short(median(row, PREPARE))),
     of("prepare_ms_min", |row| spread(row, PREPARE, MIN)),
     of("prepare_ms_max", |row| spread(row, PREPARE, MAX)),
+    shown("change_ms", |row| spread(row, CHANGE, MEDIAN), "change ms", |row| short(median(row, CHANGE))),
+    of("change_ms_min", |row| spread(row, CHANGE, MIN)),
+    of("change_ms_max", |row| spread(row, CHANGE, MAX)),
     shown("gpu_ms", |row| spread(row, GPU, MEDIAN), "gpu ms", |row| short(median(row, GPU))),
     of("gpu_ms_min", |row| spread(row, GPU, MIN)),
     of("gpu_ms_max", |row| spread(row, GPU, MAX)),
@@ -106,6 +109,9 @@ pub(crate) const SHOWN_ON_PATH: [&str; 2] = ["flicker", "flicker_ratio"];
 /// More of them, where fragments were counted.
 pub(crate) const SHOWN_WITH_BYTES: [&str; 2] = ["fragments", "bytes_moved"];
 
+/// One more, where instances came and went.
+pub(crate) const SHOWN_WITH_CHURN: [&str; 1] = ["change_ms"];
+
 /// Id and settings of a result, as one would ask for it.
 pub(crate) fn label(result: &BenchResult) -> String {
     std::iter::once(result.technique.clone()).chain(settings(result)).collect::<Vec<_>>().join(" ")
@@ -128,6 +134,7 @@ fn status(status: Status) -> &'static str {
 type Time = fn(&BenchCost) -> Option<Spread>;
 const FRAME: Time = |cost| Some(cost.frame_ms);
 const PREPARE: Time = |cost| Some(cost.prepare_ms);
+const CHANGE: Time = |cost| cost.change_ms;
 const GPU: Time = |cost| cost.gpu_ms;
 
 /// Which number of a spread.

@@ -32,6 +32,8 @@ pub struct BenchReport {
     pub moving: Moving,
     /// Where the camera went; null where it was not on one of the paths.
     pub path: Option<CameraPath>,
+    /// Instances that were removed and inserted again in every frame.
+    pub churn: u32,
     /// One for each scene, as given.
     pub scenes: Vec<BenchScene>,
 }
@@ -111,6 +113,9 @@ pub struct BenchCost {
     pub gpu_ms: Option<Spread>,
     /// CPU time of the technique's `prepare`; an overlay's includes recording.
     pub prepare_ms: Spread,
+    /// CPU time of removing and inserting instances in a frame, and of recording that; null where
+    /// none came and went.
+    pub change_ms: Option<Spread>,
     /// The whole frame from start to finished picture.
     pub frame_ms: Spread,
     /// Draw calls of the technique.
@@ -194,6 +199,7 @@ impl BenchCost {
             passes: passes.map(|(owner, pass, time_ms)| BenchPass { owner, pass, time_ms }).collect(),
             gpu_ms: frames.technique(),
             prepare_ms: frames.prepare(),
+            change_ms: frames.change(),
             frame_ms: frames.frame(),
             draws: stats.iter().map(|s| s.draws).sum(),
             triangles: stats.iter().map(|s| s.triangles).sum(),

@@ -7,6 +7,7 @@ use crate::{
         runner::Runner,
     },
     choice::Choice,
+    churn::Churn,
     error::Error,
     flicker::Follower,
     made::Made,
@@ -48,6 +49,8 @@ pub struct Bench {
     pub overlay: bool,
     /// Counts fragments in one more frame, and the bytes that they move.
     pub bytes: bool,
+    /// So many instances are removed and inserted again in every frame.
+    pub churn: u32,
     /// The command line, for the record.
     pub command: Vec<String>,
 }
@@ -90,8 +93,8 @@ impl Bench {
         }
         let made = Made::now(self.command.clone(), gpu.adapter());
         let (width, height) = self.size;
-        let (frames, moving, path) = (self.frames, self.moving, self.path);
-        Ok(BenchReport { schema: SCHEMA, made, width, height, frames, moving, path, scenes })
+        let Self { frames, moving, path, churn, .. } = *self;
+        Ok(BenchReport { schema: SCHEMA, made, width, height, frames, moving, path, churn, scenes })
     }
 
     /// On a path what is fixed in the scene has to stand still, and one technique alone makes the
@@ -102,6 +105,7 @@ impl Bench {
             _ if self.moving != Moving::None => {
                 "no light, caster or other camera moves along a path; leave --moving out"
             }
+            _ if self.churn > 0 => "no instance comes or goes along a path; leave --churn out",
             _ if self.together => "flicker is that of one light at a time; leave --lights-together out",
             (_, 0 | 1) => "flicker is a change between frames; write --frames 2 or more",
             _ => return Ok(()),
@@ -137,8 +141,9 @@ impl Bench {
             let camera = on_path.unwrap_or_else(|| motion.camera(round));
             for runner in &mut runners {
                 if let Ok(renderer) = &mut runner.renderer {
-                    motion.apply(gpu, renderer, lights, round);
+                    motion.apply(renderer, lights, round)?;
                 }
+                runner.churn()?;
                 runner.frame(gpu, &camera, round >= WARM_UP);
             }
             if let Some(follower) = follower.as_mut().filter(|_| round >= WARM_UP) {
@@ -172,7 +177,9 @@ impl Bench {
             });
             let anew = self.path.is_none() && self.moving == Moving::None;
             let frames = Frames::default();
-            Runner { baseline, choice, renderer, overlay: false, anew, lights: lights.len(), frames, traffic: None }
+            let churn = renderer.as_ref().ok().and_then(|r| Churn::new(self.churn, &source.scene, r.casters()));
+            let lights = lights.len();
+            Runner { baseline, choice, renderer, overlay: false, anew, lights, frames, traffic: None, churn }
         };
         // What has splits is set against one map, too.
         let maps = self.choices.iter().map(Maps::of);

@@ -6,6 +6,7 @@ use crate::{
         record::{BenchCost, BenchResult, BenchTraffic},
     },
     choice::Choice,
+    churn::Churn,
     error::Error,
     measure::Frames,
     status::Status,
@@ -28,12 +29,23 @@ pub(crate) struct Runner<'a> {
     pub frames: Frames,
     /// What was counted, if it was.
     pub traffic: Option<Vec<BenchTraffic>>,
+    /// Instances that come and go.
+    pub churn: Option<Churn>,
 }
 
 impl Runner<'_> {
+    /// Has instances come and go, before a frame.
+    pub(crate) fn churn(&mut self) -> Result<(), Error> {
+        if let (Ok(renderer), Some(churn)) = (&mut self.renderer, &mut self.churn) {
+            self.frames.changed_ms = Some(churn.apply(renderer.casters_mut())?);
+        }
+        Ok(())
+    }
+
     pub(crate) fn frame(&mut self, gpu: &Gpu, camera: &Camera, counts: bool) {
         let Ok(renderer) = &mut self.renderer else { return };
         let mut unused = Frames::default();
+        unused.changed_ms = self.frames.changed_ms;
         let frames = if counts { &mut self.frames } else { &mut unused };
         if self.anew {
             renderer.forget();

@@ -2,7 +2,7 @@
 
 use crate::{
     bench::{
-        columns::{COLUMNS, Column, Row, SHOWN, SHOWN_ON_PATH, SHOWN_WITH_BYTES},
+        columns::{COLUMNS, Column, Row, SHOWN, SHOWN_ON_PATH, SHOWN_WITH_BYTES, SHOWN_WITH_CHURN},
         record::{BenchLight, BenchReport, BenchScene},
     },
     motion::Moving,
@@ -25,11 +25,15 @@ impl BenchReport {
             (None, Moving::Still) => "nothing".into(),
             (None, moving) => moving.name().into(),
         };
+        let churn = match self.churn {
+            0 => String::new(),
+            count => format!("; {count} instances come and go in every frame"),
+        };
         for scene in &self.scenes {
             for light in &scene.lights {
                 let (title, size) = (light.title(), format!("{}×{}", self.width, self.height));
                 text += &format!(
-                    "\n{}, {title}, {size}, {} triangles; medians of {} frames; moving: {moving}\n",
+                    "\n{}, {title}, {size}, {} triangles; medians of {} frames; moving: {moving}{churn}\n",
                     scene.name, scene.triangles, self.frames
                 );
                 text += &table(scene, light, self.path.is_some()).to_string();
@@ -53,7 +57,8 @@ impl BenchReport {
 /// A row a technique; what has no numbers says why.
 fn table(scene: &BenchScene, light: &BenchLight, on_path: bool) -> Table {
     let is_counted = light.results.iter().flat_map(|result| &result.cost).any(|cost| cost.traffic.is_some());
-    let more = [(on_path, &SHOWN_ON_PATH), (is_counted, &SHOWN_WITH_BYTES)];
+    let churns = light.results.iter().flat_map(|result| &result.cost).any(|cost| cost.change_ms.is_some());
+    let more = [(on_path, &SHOWN_ON_PATH[..]), (is_counted, &SHOWN_WITH_BYTES), (churns, &SHOWN_WITH_CHURN)];
     let more = more.into_iter().filter(|(is_there, _)| *is_there).flat_map(|(_, names)| names);
     let named = |name: &&str| COLUMNS.iter().find(|column| column.name == *name);
     let columns: Vec<_> =
@@ -90,6 +95,7 @@ mod tests {
             passes: vec![BenchPass { owner: Owner::Light(0), pass: "map".into(), time_ms: spread }],
             gpu_ms: Some(spread),
             prepare_ms: spread,
+            change_ms: None,
             frame_ms: spread,
             draws: 3,
             triangles: 500,
@@ -117,7 +123,17 @@ mod tests {
         let scene =
             BenchScene { name: "a".into(), source: "a,b.obj".into(), triangles: 9, instances: 1, lights: vec![light] };
         let (moving, path) = (Moving::All, None);
-        BenchReport { schema: SCHEMA, made, width: 8, height: 6, frames: 5, moving, path, scenes: vec![scene] }
+        BenchReport {
+            schema: SCHEMA,
+            made,
+            width: 8,
+            height: 6,
+            frames: 5,
+            moving,
+            path,
+            churn: 0,
+            scenes: vec![scene],
+        }
     }
 
     #[test]
@@ -142,7 +158,7 @@ mod tests {
 
     #[test]
     fn every_column_of_the_terminal_is_declared() {
-        for name in SHOWN.iter().chain(&SHOWN_ON_PATH).chain(&SHOWN_WITH_BYTES) {
+        for name in SHOWN.iter().chain(&SHOWN_ON_PATH).chain(&SHOWN_WITH_BYTES).chain(&SHOWN_WITH_CHURN) {
             let column = COLUMNS.iter().find(|column| column.name == *name);
             assert!(column.is_some_and(|column| column.shown.is_some()), "{name}");
         }

@@ -20,6 +20,7 @@ pub(crate) fn cost(gpu_ms: Option<f64>, prepare_ms: f64, frame_ms: f64) -> Bench
         passes: Vec::new(),
         gpu_ms: gpu_ms.map(spread),
         prepare_ms: spread(prepare_ms),
+        change_ms: None,
         frame_ms: spread(frame_ms),
         draws: 3,
         triangles: 500,

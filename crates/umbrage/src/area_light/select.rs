@@ -20,7 +20,7 @@ pub(crate) fn casters_in_view(view: &View<'_>, form: &Form, found: &mut Vec<u32>
     if let Some(body) = soft_shadow_hull(&view.camera, &receivers, &hull) {
         casters.casting().query(&body, found);
     }
-    found.sort_unstable();
+    casters.sort(found);
     let lights: Vec<_> = hull.iter().map(|center| casters::Light { center: *center, receivers }).collect();
     found.retain(|place| {
         let placed = &casters.placed()[*place as usize];

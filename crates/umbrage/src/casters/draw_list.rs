@@ -1,5 +1,6 @@
 //! Which instances a view draws.
 
+use super::geometry::Geometry;
 use super::placed::Placed;
 use super::world::Casters;
 use crate::{gpu::Gpu, passes::Passes};
@@ -45,7 +46,7 @@ pub(crate) struct DrawList {
 }
 
 struct Draw {
-    batch: usize,
+    batch: u32,
     surface: Surface,
     instances: Range<u32>,
 }
@@ -65,8 +66,11 @@ impl InstanceNumbers {
     /// Starts a frame in which every instance may be in so many lists.
     pub fn clear(&mut self, gpu: &Gpu, casters: &Casters, lists: u32) {
         self.numbers.clear();
-        let needed = (casters.placed.len() as u64 * u64::from(lists) * 4).max(16);
+        let needed = (casters.len() as u64 * u64::from(lists) * 4).max(16);
         if self.buffer.as_ref().is_none_or(|b| b.size() < needed) {
+            // Half as much again where it grew, or instances that come would make it grow all the
+            // time.
+            let needed = if self.buffer.is_some() { needed + needed / 8 * 4 } else { needed };
             self.buffer = Some(gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("instance numbers"),
                 size: needed,
@@ -89,27 +93,25 @@ impl InstanceNumbers {
     ) {
         list.clear();
         self.slots.clear();
-        self.slots.resize(casters.batches.len(), [0; 2]);
-        let is_idle = |place: u32, batch: usize| {
-            casters.batches[batch].flat
-                && light.is_some_and(|light| casters.placed[place as usize].shadows_nothing(light))
-        };
+        self.slots.resize(casters.batches.end(), [0; 2]);
+        let is_idle = |placed: &Placed| light.is_some_and(|light| placed.shadows_nothing(light));
         let is_solid = |place: u32| {
             casters.solid.has(place) && pierced.is_some_and(|pierced| pierced.binary_search(&place).is_err())
         };
         let drawn = || {
-            let all = places.iter().map(|place| (*place, casters.batch_of[*place as usize] as usize));
-            all.filter(|(place, batch)| !is_idle(*place, *batch))
+            let all = places.iter().map(|place| (*place, &casters.placed[*place as usize]));
+            all.filter(|(_, placed)| !is_idle(placed)).map(|(place, placed)| (place, placed.batch as usize))
         };
         drawn().for_each(|(place, batch)| self.slots[batch][usize::from(is_solid(place))] += 1);
         let mut next = self.numbers.len() as u32;
-        for (number, slots) in self.slots.iter_mut().enumerate() {
-            let batch = &casters.batches[number];
+        for &number in casters.batches.order() {
+            let (batch, slots) = (casters.batches.get(number), &mut self.slots[number as usize]);
+            let is_empty = casters.meshes()[batch.mesh as usize].mesh.indices.is_empty();
             let open = if batch.masked { Surface::Masked } else { Surface::Open };
             for (slot, surface) in slots.iter_mut().zip([open, Surface::Solid]) {
                 let first = next;
                 next += std::mem::replace(slot, first);
-                if next > first && !batch.indices.is_empty() {
+                if next > first && !is_empty {
                     list.draws.push(Draw { batch: number, surface, instances: first..next });
                 }
             }
@@ -117,7 +119,7 @@ impl InstanceNumbers {
         self.numbers.resize(next as usize, 0);
         for (place, batch) in drawn() {
             let slot = &mut self.slots[batch][usize::from(is_solid(place))];
-            self.numbers[*slot as usize] = casters.number_of[place as usize];
+            self.numbers[*slot as usize] = place;
             *slot += 1;
         }
     }
@@ -142,24 +144,26 @@ impl InstanceNumbers {
     ) {
         let Some(numbers) = &self.buffer else { return };
         pass.set_bind_group(1, &casters.bind_group, &[]);
-        pass.set_vertex_buffer(0, casters.positions.slice(..));
+        pass.set_vertex_buffer(0, casters.positions().slice(..));
         pass.set_vertex_buffer(1, numbers.slice(..));
-        pass.set_vertex_buffer(2, casters.attributes.slice(..));
+        pass.set_vertex_buffer(2, casters.geometry.attributes.buffer().slice(..));
         let mut current = None;
         for Draw { batch, surface, instances } in &list.draws {
-            let batch = &casters.batches[*batch];
+            let batch = casters.batches.get(*batch);
+            let part = &casters.meshes()[batch.mesh as usize];
             if current != Some(surface) {
                 current = Some(surface);
                 pass.set_pipeline(pipeline(*surface));
                 // Small meshes cost what their vertices cost, and a box has three times as many as
                 // places.
-                let indices = if textured || batch.masked { &casters.indices } else { &casters.welded };
-                pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+                let Geometry { indices, welded, .. } = &casters.geometry;
+                let indices = if textured || batch.masked { indices } else { welded };
+                pass.set_index_buffer(indices.buffer().slice(..), wgpu::IndexFormat::Uint32);
             }
             if textured || batch.masked {
-                pass.set_bind_group(2, &casters.textures[batch.texture], &[]);
+                pass.set_bind_group(2, casters.appearance.group(batch.texture), &[]);
             }
-            pass.draw_indexed(batch.indices.clone(), batch.base_vertex, instances.clone());
+            pass.draw_indexed(part.indices(), part.base_vertex as i32, instances.clone());
         }
     }
 
@@ -188,7 +192,8 @@ impl DrawList {
     /// Triangles drawn.
     pub fn triangles(&self, casters: &Casters) -> u64 {
         let of = |Draw { batch, instances, .. }: &Draw| {
-            u64::from(casters.batches[*batch].indices.len() as u32 / 3) * u64::from(instances.end - instances.start)
+            let part = &casters.meshes()[casters.batches.get(*batch).mesh as usize];
+            part.mesh.triangle_count() as u64 * u64::from(instances.end - instances.start)
         };
         self.draws.iter().map(of).sum()
     }

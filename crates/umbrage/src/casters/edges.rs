@@ -1,13 +1,15 @@
 //! Edges and planes of the meshes on the GPU, for techniques that extrude silhouettes.
 
 use super::eye_tree::EyeTree;
-use super::placed::Placed;
+use super::geometry::MeshPart;
+use super::journal::Journal;
 use super::poses::{self, Poses};
-use super::vertices::MeshPart;
+use super::store::{Parts, Store};
 use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{error::Error, gpu::Gpu, shader::Shared, shader::shader_struct};
+use std::ops::Range;
 use std::sync::{Arc, OnceLock};
-use umbrage_core::adjacency::{Adjacency, NONE, without_copies};
+use umbrage_core::adjacency::{self, Adjacency, NONE, without_copies};
 use umbrage_core::{Mesh, glam::Vec4};
 
 /// What the host has to agree on with `edges.wgsl`.
@@ -32,16 +34,31 @@ const NO_TRIANGLE: u32 = 0x7fff_ffff;
 /// Bit of `Edge::second`: both triangles run along the edge the same way.
 const SAME_DIRECTION: u32 = 0x8000_0000;
 
+const EDGES: &str = "edges";
+const PLANES: &str = "planes";
+const TOO_LARGE: &str = "a buffer of edges, planes or vertices (techniques with maps need none; the limit is the \
+                         device's max_storage_buffer_binding_size)";
+
 /// The plane of a triangle that no edge has, such as a copy of another one.
 const LEFT_OUT: Vec4 = Vec4::new(0.0, 0.0, 0.0, -1.0);
 
-/// Bindings of [`Edges::draw`] that compute reads. WebGPU promises eight storage buffers a stage,
+/// Bindings of [`Groups::draw`] that compute reads. WebGPU promises eight storage buffers a stage,
 /// and silhouettes and what is made of them take four.
 const WITHOUT_INDICES: [u32; 4] = [0, 1, 2, 4];
 const WITHOUT_EDGES: [u32; 4] = [1, 2, 3, 4];
 
-/// Of all meshes of the scene, made once and shared by every light.
+/// Of all meshes, made when a technique first asks, kept up from then on, and shared by every
+/// light.
 pub(crate) struct Edges {
+    edges: Store,
+    planes: Store,
+    parts: [Parts; 2],
+    meshes: Vec<MeshEdges>,
+    groups: Groups,
+}
+
+/// What binds them together with the vertices.
+pub(crate) struct Groups {
     /// As `edges.wgsl` declares it, for compute.
     pub find: wgpu::BindGroup,
     /// As `silhouettes/extrude.wgsl` declares it, for drawing.
@@ -50,15 +67,31 @@ pub(crate) struct Edges {
     pub make_edges: wgpu::BindGroup,
     /// The same without the edges.
     pub make_triangles: wgpu::BindGroup,
-    /// What remakes planes of posed meshes, where there are any.
-    pub pose: Option<wgpu::BindGroup>,
-    /// Most shadows that one point can be in, whichever casters are drawn.
-    pub layers: u32,
-    meshes: Vec<MeshEdges>,
-    bytes: u64,
+    /// What remakes planes of posed meshes.
+    pub(super) pose: wgpu::BindGroup,
+    of: [wgpu::Buffer; 5],
+}
+
+impl Groups {
+    fn new(gpu: &Gpu, of: [wgpu::Buffer; 5]) -> Result<Self, Error> {
+        let limit = gpu.device.limits().max_storage_buffer_binding_size;
+        if let Some(size) = of.iter().map(wgpu::Buffer::size).find(|size| *size > limit) {
+            return Err(Error::Size { what: TOO_LARGE.into(), size, limit });
+        }
+        let all = of.each_ref().map(|b| b.as_entire_binding());
+        Ok(Self {
+            find: bind(gpu, "edges", &Edges::find_layout(gpu), &all[..2]),
+            make_edges: part(gpu, WITHOUT_INDICES, &all),
+            make_triangles: part(gpu, WITHOUT_EDGES, &all),
+            draw: bind(gpu, "edges", &Edges::draw_layout(gpu), &all),
+            pose: poses::planes_group(gpu, &of[3], &of[1]),
+            of,
+        })
+    }
 }
 
 /// The edges of one mesh and where they lie in the shared buffers.
+#[derive(Default)]
 pub(crate) struct MeshEdges {
     pub adjacency: Arc<Adjacency>,
     pub first_edge: u32,
@@ -66,12 +99,13 @@ pub(crate) struct MeshEdges {
     pub first_triangle: u32,
     pub triangle_count: u32,
     eye_tree: OnceLock<EyeTree>,
+    parts: [Range<u32>; 2],
 }
 
 impl MeshEdges {
     /// Most shadows of the mesh that one point can be in: fronts and backs of a closed one, where
     /// both count.
-    fn layers(&self) -> u32 {
+    pub(super) fn layers(&self) -> u32 {
         self.adjacency.layers.saturating_mul(if self.adjacency.is_closed { 2 } else { 1 })
     }
 
@@ -90,66 +124,118 @@ impl MeshEdges {
     }
 }
 
-/// What edges are made of.
-pub(super) struct Source<'a> {
-    pub meshes: &'a [MeshPart],
-    pub poses: &'a Poses,
-    pub placed: &'a [Placed],
-    pub positions: &'a wgpu::Buffer,
-    pub indices: &'a wgpu::Buffer,
-    pub instances: &'a wgpu::Buffer,
-}
-
 impl Edges {
-    pub(super) fn new(gpu: &Gpu, casters: &Source<'_>) -> Result<Self, Error> {
-        let (mut edges, mut planes, mut meshes) = (Vec::<Edge>::new(), Vec::<Vec4>::new(), Vec::<MeshEdges>::new());
-        for (number, part) in casters.meshes.iter().enumerate() {
-            let adjacency = match casters.poses.source(number) {
-                Some(source) => Arc::clone(&meshes[source].adjacency),
-                None => Arc::new(Adjacency::of(&without_copies(&part.mesh))),
-            };
-            let (first_edge, first_triangle) = (edges.len() as u32, planes.len() as u32);
-            let triangle =
-                |t: u32| if t == NONE { NO_TRIANGLE } else { first_triangle + adjacency.numbers[t as usize] };
-            edges.extend(adjacency.edges.iter().map(|e| Edge {
-                start: part.base_vertex + e.vertices[0],
-                end: part.base_vertex + e.vertices[1],
-                first: triangle(e.triangles[0]),
-                second: triangle(e.triangles[1]) | if e.same_direction { SAME_DIRECTION } else { 0 },
-            }));
-            let triangle_count = part.mesh.triangle_count() as u32;
-            planes.resize((first_triangle + triangle_count) as usize, LEFT_OUT);
-            let own = casters.poses.planes(number, &adjacency).unwrap_or(&adjacency.planes);
-            for (plane, &t) in own.iter().zip(&adjacency.numbers) {
-                planes[(first_triangle + t) as usize] = *plane;
+    /// Of all meshes; `of_vertices` has their positions, their indices, and instances.
+    ///
+    /// # Errors
+    /// [`Error::Size`] where they do not fit the adapter's limits.
+    pub(super) fn new(
+        gpu: &Gpu,
+        (meshes, poses): (&[MeshPart], &Poses),
+        of_vertices: [&wgpu::Buffer; 3],
+    ) -> Result<Self, Error> {
+        let (edges, planes) = (Store::new(gpu, EDGES, 16, 0)?, Store::new(gpu, PLANES, 16, 0)?);
+        let groups = Groups::new(gpu, buffers([&edges, &planes], of_vertices))?;
+        let mut made = Self { edges, planes, parts: [Parts::new(), Parts::new()], meshes: Vec::new(), groups };
+        let mut all = Vec::new();
+        // Those of posed instances have the edges of the meshes that they are made of.
+        for posed in [false, true] {
+            let numbers = (0..).zip(meshes).filter(|(_, part)| part.version != 0 && part.source.is_some() == posed);
+            for (number, _) in numbers {
+                made.add(number, (meshes, poses), &mut all)?;
             }
-            meshes.push(MeshEdges { adjacency, first_edge, first_triangle, triangle_count, eye_tree: OnceLock::new() });
         }
-        let limit = gpu.device.limits().max_storage_buffer_binding_size;
-        let sizes =
-            [edges.len() as u64 * 16, planes.len() as u64 * 16, casters.positions.size(), casters.indices.size()];
-        if let Some(&size) = sizes.iter().find(|size| **size > limit) {
-            let what = "a buffer of edges, planes or vertices (techniques with maps need none; the limit is the \
-                        device's max_storage_buffer_binding_size)";
-            return Err(Error::Size { what: what.into(), size, limit });
+        let mut journal = Journal::default();
+        made.edges = Store::new(gpu, EDGES, 16, u64::from(made.parts[0].end()))?;
+        made.planes = Store::new(gpu, PLANES, 16, u64::from(made.parts[1].end()))?;
+        all.iter().for_each(|new| made.write(&mut journal, new));
+        journal.finish(gpu);
+        made.bind(gpu, of_vertices)?;
+        Ok(made)
+    }
+
+    /// Adds the edges of a mesh, or makes them anew.
+    ///
+    /// # Errors
+    /// [`Error::Size`] where they do not fit the adapter's limits.
+    pub(super) fn set(
+        &mut self,
+        gpu: &Gpu,
+        journal: &mut Journal,
+        number: u32,
+        of: (&[MeshPart], &Poses),
+    ) -> Result<(), Error> {
+        self.remove(number);
+        let mut new = Vec::new();
+        self.add(number, of, &mut new)?;
+        self.edges.fit(gpu, u64::from(self.parts[0].end()), journal)?;
+        self.planes.fit(gpu, u64::from(self.parts[1].end()), journal)?;
+        new.iter().for_each(|new| self.write(journal, new));
+        Ok(())
+    }
+
+    fn write(&self, journal: &mut Journal, (number, edges, planes): &New) {
+        let mesh = &self.meshes[*number as usize];
+        self.edges.write(journal, mesh.first_edge, edges);
+        self.planes.write(journal, mesh.first_triangle, planes);
+    }
+
+    /// Finds the edges of a mesh and a place for them.
+    fn add(&mut self, number: u32, (meshes, poses): (&[MeshPart], &Poses), new: &mut Vec<New>) -> Result<(), Error> {
+        let part = &meshes[number as usize];
+        let adjacency = match part.source.and_then(|source| self.meshes.get(source as usize)) {
+            Some(source) => source.adjacency.clone(),
+            None => Arc::new(Adjacency::of(&without_copies(&part.mesh))),
+        };
+        let triangle_count = part.mesh.triangle_count() as u32;
+        let mut take = |kind: usize, count: usize, what: &str| {
+            let taken = u32::try_from(count).ok().and_then(|count| self.parts[kind].take(count));
+            let size = u64::from(self.parts[kind].end()) + count as u64;
+            taken.ok_or_else(|| Error::Size { what: format!("the number of {what}"), size, limit: i32::MAX as u64 })
+        };
+        let parts = [take(0, adjacency.edges.len(), EDGES)?, take(1, triangle_count as usize, PLANES)?];
+        let [first_edge, first_triangle] = [parts[0].start, parts[1].start];
+        let triangle = |t: u32| if t == NONE { NO_TRIANGLE } else { first_triangle + adjacency.numbers[t as usize] };
+        let edge = |e: &adjacency::Edge| Edge {
+            start: part.base_vertex + e.vertices[0],
+            end: part.base_vertex + e.vertices[1],
+            first: triangle(e.triangles[0]),
+            second: triangle(e.triangles[1]) | if e.same_direction { SAME_DIRECTION } else { 0 },
+        };
+        let edges: Vec<Edge> = adjacency.edges.iter().map(edge).collect();
+        let mut planes = vec![LEFT_OUT; triangle_count as usize];
+        let own = poses.planes(number, part, &adjacency).unwrap_or(&adjacency.planes);
+        own.iter().zip(&adjacency.numbers).for_each(|(plane, &t)| planes[t as usize] = *plane);
+        new.push((number, edges, planes));
+        self.meshes.resize_with(self.meshes.len().max(number as usize + 1), MeshEdges::default);
+        self.meshes[number as usize] =
+            MeshEdges { adjacency, first_edge, first_triangle, triangle_count, eye_tree: OnceLock::new(), parts };
+        Ok(())
+    }
+
+    /// Forgets the edges of a mesh.
+    pub(super) fn remove(&mut self, number: u32) {
+        if let Some(mesh) = self.meshes.get_mut(number as usize) {
+            let parts = std::mem::take(mesh).parts;
+            self.parts.iter_mut().zip(parts).for_each(|(all, part)| all.give_back(part));
         }
-        let edges = gpu.buffer("edges", &edges, wgpu::BufferUsages::STORAGE);
-        let planes = gpu.buffer("planes", &planes, wgpu::BufferUsages::STORAGE);
-        let of_edges = [edges.as_entire_binding(), planes.as_entire_binding()];
-        let of_vertices = [casters.positions, casters.indices, casters.instances].map(|b| b.as_entire_binding());
-        let all = [&of_edges[..], &of_vertices].concat();
-        let placed = casters.placed.iter().filter(|p| p.casts);
-        let layers = placed.map(|p| meshes[p.mesh as usize].layers()).fold(0, u32::saturating_add);
-        Ok(Self {
-            layers,
-            find: bind(gpu, "edges", &Self::find_layout(gpu), &of_edges),
-            make_edges: part(gpu, WITHOUT_INDICES, &all),
-            make_triangles: part(gpu, WITHOUT_EDGES, &all),
-            draw: bind(gpu, "edges", &Self::draw_layout(gpu), &all),
-            pose: (!casters.poses.is_empty()).then(|| poses::planes_group(gpu, casters.indices, &planes)),
-            meshes,
-            bytes: edges.size() + planes.size(),
-        })
+    }
+
+    /// Binds the buffers that there are now.
+    ///
+    /// # Errors
+    /// [`Error::Size`] where shaders may not have all vertices.
+    pub(super) fn bind(&mut self, gpu: &Gpu, of_vertices: [&wgpu::Buffer; 3]) -> Result<(), Error> {
+        let of = buffers([&self.edges, &self.planes], of_vertices);
+        if self.groups.of != of {
+            self.groups = Groups::new(gpu, of)?;
+        }
+        Ok(())
+    }
+
+    /// What binds them.
+    pub fn groups(&self) -> &Groups {
+        &self.groups
     }
 
     pub fn find_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
@@ -160,25 +246,35 @@ impl Edges {
         layout(gpu, "edges", wgpu::ShaderStages::VERTEX, &[STORAGE; 5])
     }
 
-    /// Of [`Edges::make_edges`].
+    /// Of [`Groups::make_edges`].
     pub fn make_edges_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
         part_layout(gpu, WITHOUT_INDICES)
     }
 
-    /// Of [`Edges::make_triangles`].
+    /// Of [`Groups::make_triangles`].
     pub fn make_triangles_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
         part_layout(gpu, WITHOUT_EDGES)
     }
 
-    /// Of a mesh, by its number in the scene.
+    /// Of a mesh, by its number.
     pub fn of_mesh(&self, mesh: u32) -> &MeshEdges {
         &self.meshes[mesh as usize]
     }
 
     /// GPU memory, once for all lights.
     pub fn bytes(&self) -> u64 {
-        self.bytes
+        self.edges.bytes() + self.planes.bytes()
     }
+}
+
+/// Number of a mesh, its edges and its planes.
+type New = (u32, Vec<Edge>, Vec<Vec4>);
+
+/// What [`Groups`] bind.
+fn buffers(own: [&Store; 2], of_vertices: [&wgpu::Buffer; 3]) -> [wgpu::Buffer; 5] {
+    let [edges, planes] = own.map(|store| store.buffer().clone());
+    let [positions, indices, instances] = of_vertices.map(wgpu::Buffer::clone);
+    [edges, planes, positions, indices, instances]
 }
 
 fn part_layout(gpu: &Gpu, bindings: [u32; 4]) -> wgpu::BindGroupLayout {

@@ -1,9 +1,12 @@
 //! Materials and textures on the GPU.
 
+use super::ids::Slots;
+use super::journal::Journal;
+use super::store::Store;
 use crate::fullscreen::{self, bind, layout};
 use crate::{error::Error, gpu::Gpu, shader::Shared, shader::shader_struct};
 use std::collections::HashMap;
-use umbrage_core::{Filter, Sampling, Scene, Texture, Wrap};
+use umbrage_core::{Filter, Sampling, Texture, Wrap};
 use wgpu::util::DeviceExt;
 
 shader_struct! {
@@ -21,29 +24,161 @@ shader_struct! {
 /// What the host has to agree on with `materials.wgsl`.
 pub(super) const SHARED: Shared = Shared { module: "materials", layouts: &[Material::LAYOUT], constants: &[] };
 
-/// All materials of the scene, as the shader reads them.
-pub(super) fn all(scene: &Scene) -> Vec<Material> {
-    let of = |m: &umbrage_core::Material| Material {
-        base_color: m.base_color.to_array(),
-        emissive: m.emissive.to_array(),
-        alpha_cutoff: m.alpha_cutoff.unwrap_or(0.0),
-        specular: m.specular,
-        shininess: m.shininess,
-        spare: [0.0; 2],
-    };
-    scene.materials.iter().map(of).collect()
+/// A material, and what draws have to know of it.
+pub(super) struct Look {
+    pub masked: bool,
+    /// Index into the textures.
+    pub texture: Option<u32>,
+    /// Places of the instances that it is the material of.
+    pub members: Vec<u32>,
 }
 
-/// A bind group for every texture; the first is plain white, for materials without one.
-pub(super) fn textures(gpu: &Gpu, scene: &Scene) -> Result<Vec<wgpu::BindGroup>, Error> {
-    let sampling = Sampling::default();
-    let white = Texture { name: "white".into(), width: 1, height: 1, rgba: vec![[255; 4]], sampling };
-    let mut samplers = HashMap::new();
-    let mut group = |texture: &Texture| {
-        let sampler = samplers.entry(texture.sampling).or_insert_with(|| sampler(gpu, texture.sampling));
+/// A texture, bound with its sampler.
+pub(super) struct Picture {
+    group: wgpu::BindGroup,
+    /// When it was added.
+    pub order: u64,
+    /// How many materials have it.
+    users: u32,
+}
+
+/// All materials and textures.
+pub(super) struct Appearance {
+    pub store: Store,
+    pub looks: Vec<Look>,
+    pub slots: Slots,
+    pub pictures: Vec<Picture>,
+    pub texture_slots: Slots,
+    samplers: HashMap<Sampling, wgpu::Sampler>,
+    /// Plain white, for materials without a texture.
+    white: wgpu::BindGroup,
+    added: u64,
+}
+
+impl Appearance {
+    /// With room for so many materials.
+    pub fn new(gpu: &Gpu, of: u32, materials: u64) -> Result<Self, Error> {
+        let sampling = Sampling::default();
+        let white = Texture { name: "white".into(), width: 1, height: 1, rgba: vec![[255; 4]], sampling };
+        let plain = sampler(gpu, sampling);
+        Ok(Self {
+            store: Store::new(gpu, "materials", size_of::<Material>() as u64, materials)?,
+            looks: Vec::new(),
+            slots: Slots::new("material", of),
+            pictures: Vec::new(),
+            texture_slots: Slots::new("texture", of),
+            white: bind_group(gpu, &white, &plain)?,
+            samplers: HashMap::from([(sampling, plain)]),
+            added: 0,
+        })
+    }
+
+    /// What group 2 is for a texture, or for none.
+    pub fn group(&self, texture: Option<u32>) -> &wgpu::BindGroup {
+        texture.map_or(&self.white, |texture| &self.pictures[texture as usize].group)
+    }
+
+    /// Adds a texture; its number.
+    pub fn add_texture(&mut self, gpu: &Gpu, texture: &Texture) -> Result<u32, Error> {
+        let group = self.bound(gpu, texture)?;
+        let (number, _) = self.texture_slots.insert();
+        self.added += 1;
+        let picture = Picture { group, order: self.added, users: 0 };
+        match self.pictures.get_mut(number as usize) {
+            Some(spare) => *spare = picture,
+            None => self.pictures.push(picture),
+        }
+        Ok(number)
+    }
+
+    /// Puts another texture in the place of one. It is a new one on the GPU, since frames that were
+    /// recorded before read the old one.
+    pub fn replace_texture(&mut self, gpu: &Gpu, number: u32, texture: &Texture) -> Result<(), Error> {
+        self.pictures[number as usize].group = self.bound(gpu, texture)?;
+        Ok(())
+    }
+
+    /// # Errors
+    /// [`Error::Scene`] while materials have it.
+    pub fn remove_texture(&mut self, number: u32) -> Result<(), Error> {
+        let picture = &mut self.pictures[number as usize];
+        if picture.users > 0 {
+            let users = picture.users;
+            return Err(Error::Scene(format!("{users} materials have this texture; replace or remove them first")));
+        }
+        picture.group = self.white.clone();
+        self.texture_slots.remove(number);
+        Ok(())
+    }
+
+    /// Adds a material; its number.
+    pub fn add(
+        &mut self,
+        gpu: &Gpu,
+        journal: &mut Journal,
+        material: &umbrage_core::Material,
+        texture: Option<u32>,
+    ) -> Result<u32, Error> {
+        let (number, _) = self.slots.insert();
+        if let Err(error) = self.store.fit(gpu, self.looks.len().max(number as usize + 1) as u64, journal) {
+            self.slots.remove(number);
+            return Err(error);
+        }
+        let look = Look { masked: false, texture: None, members: Vec::new() };
+        match self.looks.get_mut(number as usize) {
+            Some(spare) => *spare = look,
+            None => self.looks.push(look),
+        }
+        self.set(journal, number, material, texture);
+        Ok(number)
+    }
+
+    /// Changes a material.
+    pub fn set(&mut self, journal: &mut Journal, number: u32, material: &umbrage_core::Material, texture: Option<u32>) {
+        let look = &mut self.looks[number as usize];
+        look.masked = material.alpha_cutoff.is_some();
+        let before = std::mem::replace(&mut look.texture, texture);
+        if let Some(before) = before {
+            self.pictures[before as usize].users -= 1;
+        }
+        if let Some(texture) = texture {
+            self.pictures[texture as usize].users += 1;
+        }
+        self.store.write(journal, number, &[data(material)]);
+    }
+
+    /// # Errors
+    /// [`Error::Scene`] while instances have it.
+    pub fn remove(&mut self, number: u32) -> Result<(), Error> {
+        let look = &mut self.looks[number as usize];
+        if !look.members.is_empty() {
+            let users = look.members.len();
+            return Err(Error::Scene(format!(
+                "{users} instances have this material; remove them or give them another first"
+            )));
+        }
+        if let Some(texture) = look.texture.take() {
+            self.pictures[texture as usize].users -= 1;
+        }
+        self.slots.remove(number);
+        Ok(())
+    }
+
+    fn bound(&mut self, gpu: &Gpu, texture: &Texture) -> Result<wgpu::BindGroup, Error> {
+        let sampler = self.samplers.entry(texture.sampling).or_insert_with(|| sampler(gpu, texture.sampling));
         bind_group(gpu, texture, sampler)
-    };
-    std::iter::once(&white).chain(&scene.textures).map(&mut group).collect()
+    }
+}
+
+fn data(material: &umbrage_core::Material) -> Material {
+    Material {
+        base_color: material.base_color.to_array(),
+        emissive: material.emissive.to_array(),
+        alpha_cutoff: material.alpha_cutoff.unwrap_or(0.0),
+        specular: material.specular,
+        shininess: material.shininess,
+        spare: [0.0; 2],
+    }
 }
 
 fn sampler(gpu: &Gpu, sampling: Sampling) -> wgpu::Sampler {

@@ -3,6 +3,7 @@
 
 /// A log in which each caster stands at most twice as often as there are casters, however often it
 /// moves.
+#[derive(Default)]
 pub(crate) struct Moves {
     /// Number of moves so far.
     now: u64,
@@ -19,14 +20,13 @@ struct Move {
 }
 
 impl Moves {
-    pub fn new(casters: usize) -> Self {
-        Self { now: 0, log: Vec::new(), last: vec![0; casters] }
-    }
-
+    /// After a caster moved, came or went.
     pub fn push(&mut self, place: u32) {
-        let Some(last) = self.last.get_mut(place as usize) else { return };
+        if place as usize >= self.last.len() {
+            self.last.resize(place as usize + 1, 0);
+        }
         self.now += 1;
-        *last = self.now;
+        self.last[place as usize] = self.now;
         if self.log.len() >= 2 * self.last.len() {
             self.log.retain(|m| self.last[m.place as usize] == m.number);
         }
@@ -56,7 +56,8 @@ mod tests {
 
     #[test]
     fn each_mover_is_told_once_and_the_log_stays_short() {
-        let mut moves = Moves::new(5);
+        let mut moves = Moves::default();
+        moves.push(4);
         for i in 0..1000_u32 {
             let before = moves.now();
             moves.push(i % 3);
@@ -69,9 +70,9 @@ mod tests {
             assert_eq!(told, expected, "step {i}");
             assert!(moves.log.len() <= 10);
         }
-        assert_eq!(moves.since(0).count(), 3, "two never moved");
+        assert_eq!(moves.since(0).count(), 4, "one never moved");
         assert_eq!(moves.since(moves.now()).count(), 0);
         moves.push(7);
-        assert_eq!(moves.since(0).count(), 3, "a place that is not there");
+        assert_eq!((moves.since(0).count(), moves.last(7)), (5, moves.now()), "one that came");
     }
 }

@@ -2,7 +2,6 @@
 
 use super::sides::Sides;
 use crate::shader::{Shared, shader_struct};
-use std::ops::Range;
 use umbrage_core::Bounds;
 use umbrage_core::glam::{DAffine3, DVec3, DVec4};
 
@@ -28,27 +27,12 @@ shader_struct! {
 }
 
 /// Bits of `Instance::flags`: shadows fall on it; it casts shadows.
-pub(super) const RECEIVES: u32 = 1;
-pub(super) const CASTS: u32 = 2;
+const RECEIVES: u32 = 1;
+const CASTS: u32 = 2;
 
-/// Instances of one mesh with one texture: one draw.
-pub(super) struct Batch {
-    pub(super) indices: Range<u32>,
-    pub(super) base_vertex: i32,
-    /// Index into the textures.
-    pub(super) texture: usize,
-    pub(super) masked: bool,
-    /// The mesh lies in a plane.
-    pub(super) flat: bool,
-    /// The mesh is the surface of a convex body, opaque.
-    pub(super) solid: bool,
-    /// Indices into `placed`.
-    pub(super) members: Range<usize>,
-}
-
-/// What the CPU keeps of an instance, in the order of the batches.
+/// What the CPU keeps of an instance; its place in [`super::Casters::placed`] is its number on the
+/// GPU.
 pub(crate) struct Placed {
-    pub number: u32,
     /// Index into [`super::Casters::meshes`].
     pub mesh: u32,
     /// Its mesh is its own, and the GPU alone knows its vertices.
@@ -56,14 +40,67 @@ pub(crate) struct Placed {
     pub world_from_mesh: DAffine3,
     pub sides: Option<Sides>,
     pub masked: bool,
-    pub(super) mesh_bounds: Bounds,
     pub bounds: Bounds,
-    /// Of a flat mesh, in its own space.
-    pub(super) mesh_plane: Option<DVec4>,
+    /// Of a flat mesh.
     pub(super) plane: Option<DVec4>,
+    /// False for one that is hidden, too.
     pub casts: bool,
     pub receives: bool,
-    pub(super) data: Instance,
+    /// It is there, and not hidden.
+    pub shown: bool,
+    /// What [`super::Casters::show`] brings back.
+    pub(super) wanted: Wanted,
+    /// Index into the materials.
+    pub(super) material: u32,
+    pub(super) model: u32,
+    /// When it came: what casters are drawn and counted in the order of.
+    pub(super) order: u64,
+    /// Where in the lists of its mesh and of its material it stands.
+    pub(super) member: [u32; 2],
+    pub(super) batch: u32,
+    pub(super) is_batched: bool,
+}
+
+/// What an instance does where it is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Wanted {
+    pub casts: bool,
+    pub receives: bool,
+}
+
+impl Placed {
+    /// A place where nothing is.
+    pub(super) fn nothing() -> Self {
+        Self {
+            mesh: 0,
+            posed: false,
+            world_from_mesh: DAffine3::IDENTITY,
+            sides: None,
+            masked: false,
+            bounds: Bounds::EMPTY,
+            plane: None,
+            casts: false,
+            receives: false,
+            shown: false,
+            wanted: Wanted::default(),
+            material: 0,
+            model: 0,
+            order: u64::MAX,
+            member: [0; 2],
+            batch: 0,
+            is_batched: false,
+        }
+    }
+
+    /// What the GPU keeps of it.
+    pub(super) fn data(&self, origin: DVec3) -> Instance {
+        Instance {
+            material: self.material,
+            flags: u32::from(self.receives) * RECEIVES + u32::from(self.casts) * CASTS,
+            model: self.model,
+            ..rows(&self.world_from_mesh, origin)
+        }
+    }
 }
 
 /// True where a placed mesh keeps its winding, and enough thickness that rounding can't turn it.
@@ -80,7 +117,7 @@ pub(super) fn moved_plane(plane: DVec4, world_from_mesh: &DAffine3) -> DVec4 {
     normal.extend(-normal.dot(on_plane))
 }
 
-pub(super) fn rows(world_from_mesh: &DAffine3, origin: DVec3) -> Instance {
+fn rows(world_from_mesh: &DAffine3, origin: DVec3) -> Instance {
     let m = world_from_mesh.matrix3.transpose();
     let t = world_from_mesh.translation - origin;
     let row = |axis: DVec3, t: f64| axis.extend(t).as_vec4().to_array();

@@ -13,6 +13,14 @@ impl Places {
         self.words.resize(count.div_ceil(64), 0);
     }
 
+    /// Has room for a place, and keeps what it holds.
+    pub fn make_room(&mut self, place: u32) {
+        let words = place as usize / 64 + 1;
+        if self.words.len() < words {
+            self.words.resize(words.next_power_of_two(), 0);
+        }
+    }
+
     /// Adds a place; true where it was not in the set and there is room.
     pub fn insert(&mut self, place: u32) -> bool {
         let Some(word) = self.words.get_mut(place as usize / 64) else { return false };

@@ -35,9 +35,10 @@ impl SeenCasters {
     /// Finds what `camera` sees, before the pass that draws it begins.
     pub fn find(&mut self, gpu: &Gpu, passes: &mut Passes<'_>, casters: &Casters, camera: &CameraView) {
         let frustum = Frustum::of(&camera.clip_from_world());
-        let seen = (0..).zip(casters.placed()).filter(|(_, placed)| frustum.may_see(&placed.bounds));
+        let seen = (0..).zip(casters.placed()).filter(|(_, placed)| placed.shown && frustum.may_see(&placed.bounds));
         self.places.clear();
         self.places.extend(seen.map(|(place, _)| place));
+        casters.sort(&mut self.places);
         self.numbers.clear(gpu, casters, 1);
         self.numbers.list(casters, &self.places, None, None, &mut self.list);
         self.numbers.upload(passes);

@@ -1,56 +1,31 @@
-//! The vertices and triangles of all meshes in shared buffers, and how passes read them.
+//! What vertices are on the GPU, and how passes read them.
 
-use std::{ops::Range, sync::Arc};
 use umbrage_core::Mesh;
 
-/// A mesh and where it lies in the shared buffers.
-pub(crate) struct MeshPart {
-    /// Without normals and texture coordinates; of a posed instance as it was bound.
-    pub mesh: Arc<Mesh>,
-    pub first_index: u32,
-    pub base_vertex: u32,
+/// Normal, texture coordinate and opacity of each vertex of a mesh.
+pub(super) fn attributes(mesh: &Mesh) -> Vec<[f32; 6]> {
+    let of = |i: usize| {
+        let n = mesh.normals.get(i).copied().unwrap_or_default();
+        let uv = mesh.uvs.get(i).copied().unwrap_or_default();
+        let opacity = mesh.opacities.get(i).copied().unwrap_or(1.0);
+        [n.x, n.y, n.z, uv.x, uv.y, opacity]
+    };
+    (0..mesh.positions.len()).map(of).collect()
 }
 
-impl MeshPart {
-    pub(super) fn indices(&self) -> Range<u32> {
-        self.first_index..self.first_index + self.mesh.indices.len() as u32
-    }
-}
-
-/// The contents of the vertex and index buffers.
-#[derive(Default)]
-pub(super) struct Vertices {
-    pub positions: Vec<[f32; 3]>,
-    /// Normal, texture coordinate, opacity.
-    pub attributes: Vec<[f32; 6]>,
-    pub indices: Vec<u32>,
-    pub welded: Vec<u32>,
-}
-
-impl Vertices {
-    /// Adds a mesh.
-    pub fn add(&mut self, mesh: &Mesh) -> MeshPart {
-        let first_index = self.indices.len() as u32;
-        self.indices.extend(&mesh.indices);
-        self.welded.extend(mesh.welded_indices());
-        let base_vertex = self.pose(mesh);
-        let (positions, indices, weights) = (mesh.positions.clone(), mesh.indices.clone(), mesh.weights.clone());
-        let mesh = Arc::new(Mesh { positions, indices, weights, ..Mesh::default() });
-        MeshPart { mesh, first_index, base_vertex }
-    }
-
-    /// Adds vertices alone.
-    pub fn pose(&mut self, mesh: &Mesh) -> u32 {
-        let base_vertex = self.positions.len() as u32;
-        self.positions.extend(mesh.positions.iter().map(|p| p.to_array()));
-        self.attributes.extend((0..mesh.positions.len()).map(|i| {
-            let n = mesh.normals.get(i).copied().unwrap_or_default();
-            let uv = mesh.uvs.get(i).copied().unwrap_or_default();
-            let opacity = mesh.opacities.get(i).copied().unwrap_or(1.0);
-            [n.x, n.y, n.z, uv.x, uv.y, opacity]
-        }));
-        base_vertex
-    }
+/// Who holds the vertices of a mesh with joints, as `pose_vertices.wgsl` has it: where in the list
+/// of all meshes the joints of each vertex start, then pairs of a joint and its weight. `first` is
+/// where the list of this mesh starts in that of all.
+pub(super) fn weights(mesh: &Mesh, first: u32) -> Vec<u32> {
+    let vertices = mesh.positions.len() as u32;
+    let pairs = first + vertices + 1;
+    let ends = (0..mesh.positions.len()).scan(0, |end, vertex| {
+        *end = mesh.weights.ends().get(vertex).copied().unwrap_or(*end);
+        Some(*end)
+    });
+    let starts = std::iter::once(0).chain(ends).map(|end| pairs + 2 * end);
+    let influences = mesh.weights.influences().iter().flat_map(|i| [i.joint, i.weight.to_bits()]);
+    starts.chain(influences).collect()
 }
 
 /// The vertex buffers of a pass that draws casters: positions and instance numbers, and attributes

@@ -66,6 +66,11 @@ impl Kept {
         }
     }
 
+    /// True where no frame is open any more, when that was last asked for by [`Kept::holds`].
+    pub(crate) fn is_settled(&self) -> bool {
+        self.open.is_empty()
+    }
+
     /// False once for everything that went wrong: the thing is then not what it was recorded to be,
     /// and has to be made anew. Where the GPU has not come to a frame yet, all is taken to go well.
     pub fn holds(&mut self) -> bool {

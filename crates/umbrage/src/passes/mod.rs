@@ -154,9 +154,14 @@ impl Passes<'_> {
     /// Replaces the start of `buffer` by `data` for everything recorded after this.
     /// `data` is a multiple of four bytes long.
     pub fn upload(&mut self, buffer: &wgpu::Buffer, data: &[u8]) {
+        self.upload_at(buffer, 0, data);
+    }
+
+    /// The same from byte `at` of the buffer on, a multiple of four.
+    pub fn upload_at(&mut self, buffer: &wgpu::Buffer, at: u64, data: &[u8]) {
         let Some(size) = wgpu::BufferSize::new(data.len() as u64) else { return };
         let part = self.belt.allocate(size, wgpu::BufferSize::MIN);
-        self.encoder.copy_buffer_to_buffer(part.buffer(), part.offset(), buffer, 0, size.get());
+        self.encoder.copy_buffer_to_buffer(part.buffer(), part.offset(), buffer, at, size.get());
         // Memory that is not there is that of a lost device, see `Gpu::check`.
         if let Ok(mut memory) = part.get_mapped_range_mut() {
             memory.copy_from_slice(data);

@@ -176,7 +176,7 @@ fn find(casters: &Casters, plane: &mut LitPlane, cull: bool, found: &mut Vec<u32
     if cull {
         casters.casting().query(&*plane, found);
     } else {
-        found.extend((0..).zip(casters.placed()).filter(|(_, p)| p.casts).map(|(place, _)| place));
+        found.extend(casters.casting_places());
     }
     let between = |place: u32| plane.between(&casters.placed()[place as usize]);
     found.retain(|place| between(*place) != Between::Nothing);

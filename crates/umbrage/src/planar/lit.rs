@@ -173,7 +173,7 @@ mod tests {
 
     fn floor() -> SeenPlane {
         let (low, high) = (DVec2::splat(-5.0), DVec2::splat(5.0));
-        SeenPlane { plane: DVec4::Y, right: DVec3::X, up: DVec3::NEG_Z, low, high, pixels: 1.0 }
+        SeenPlane { plane: DVec4::Y, right: DVec3::X, up: DVec3::NEG_Z, low, high, pixels: 1.0, rank: (0, 0) }
     }
 
     fn lit(light: DVec4) -> Option<LitPlane> {

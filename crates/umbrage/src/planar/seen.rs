@@ -18,6 +18,8 @@ pub(crate) struct SeenPlane {
     pub high: DVec2,
     /// How many pixels its receivers would cover, were nothing before them.
     pub pixels: f64,
+    /// Tells planes apart in the order in which their receivers came.
+    pub rank: (u64, u32),
 }
 
 /// All of them.
@@ -53,15 +55,20 @@ impl SeenPlanes {
         }
         self.list.clear();
         self.find(view, planes);
-        self.list.sort_by(|a, b| b.pixels.total_cmp(&a.pixels));
+        self.sort();
         self.unite(tolerance + planes.flatness());
-        self.list.sort_by(|a, b| b.pixels.total_cmp(&a.pixels));
+        self.sort();
         self.of = Some(key);
     }
 
     /// The largest on the screen first.
     pub fn list(&self) -> &[SeenPlane] {
         &self.list
+    }
+
+    /// Of planes that are as large as each other the older one comes first.
+    fn sort(&mut self) {
+        self.list.sort_by(|a, b| b.pixels.total_cmp(&a.pixels).then(a.rank.cmp(&b.rank)));
     }
 
     fn find(&mut self, view: &View<'_>, planes: &ScenePlanes) {
@@ -78,7 +85,7 @@ impl SeenPlanes {
             let (low, high) = polygon.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), around);
             let pixels = screen.area(polygon) * plane.share();
             if polygon.len() > 2 && pixels >= least {
-                self.list.push(SeenPlane { plane: equation, right, up, low, high, pixels });
+                self.list.push(SeenPlane { plane: equation, right, up, low, high, pixels, rank: plane.rank });
             }
         }
     }

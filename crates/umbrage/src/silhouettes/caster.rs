@@ -110,7 +110,7 @@ pub(super) fn caster(casters: &Casters, edges: &Edges, throw: &Throw) -> Option<
         triangle_count: mesh.triangle_count,
         first_index: part.first_index,
         base_vertex: part.base_vertex,
-        instance: placed.number,
+        instance: throw.place,
         flags: flags.into_iter().filter(|(on, _)| *on).map(|(_, bit)| bit).sum(),
         reach: throw.reach,
         seen_from: throw.anchor[0].to_array(),

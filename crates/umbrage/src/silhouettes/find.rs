@@ -58,7 +58,7 @@ impl Find {
         passes.upload(&buffers.arguments, bytemuck::cast_slice(&arguments));
         let mut pass = passes.compute("silhouettes");
         pass.set_bind_group(0, bind_group, &[]);
-        pass.set_bind_group(1, &edges.find, &[]);
+        pass.set_bind_group(1, &edges.groups().find, &[]);
         for (pipeline, groups) in [(&self.sides, edge_chunks), (&self.caps, triangle_chunks), (&self.group, 1)] {
             if groups > 0 {
                 pass.set_pipeline(pipeline);

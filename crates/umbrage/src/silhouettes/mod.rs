@@ -146,7 +146,7 @@ impl Silhouettes {
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, edges: &Edges, part: Part) {
         let Some(buffers) = &self.buffers else { return };
         pass.set_bind_group(0, &buffers.draw, &[]);
-        pass.set_bind_group(1, &edges.draw, &[]);
+        pass.set_bind_group(1, &edges.groups().draw, &[]);
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint16);
         let indices = self.shape.indices(part);
         match self.extrude {

@@ -1,7 +1,7 @@
 //! A map that is kept shows what a map that is drawn anew in every frame would, and costs nothing
 //! where nothing changes.
 
-use crate::common::{gpu, pairs, scene};
+use crate::common::{gpu, move_instance, pairs, scene};
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Camera, LightShape, Scene};
 use umbrage::{Casters, Gpu, Receivers, Recorder, View, VisibilityTarget, find};
@@ -9,7 +9,6 @@ use umbrage_renderer::{LightPass, Renderer};
 
 /// The same scene with maps that are kept and with maps that are not.
 struct Pair {
-    gpu: Gpu,
     scene: Scene,
     camera: Camera,
     kept: Renderer,
@@ -26,15 +25,22 @@ impl Pair {
             let technique = settings.make(gpu).unwrap();
             Renderer::new(gpu, &scene, 96, 72, vec![LightPass { light, technique }]).unwrap()
         });
-        let (gpu, camera) = (gpu.clone(), scene.camera.clone());
-        Self { gpu, camera, kept, drawn, scene, name: format!("{id} {set}, light {light}"), frame: 0 }
+        let camera = scene.camera.clone();
+        Self { camera, kept, drawn, scene, name: format!("{id} {set}, light {light}"), frame: 0 }
     }
 
     /// Moves an instance away from where the scene has it.
     fn place(&mut self, instance: usize, by: DVec3) {
         let world_from_mesh = DAffine3::from_translation(by) * self.scene.instances[instance].world_from_mesh;
         for renderer in [&mut self.kept, &mut self.drawn] {
-            renderer.casters_mut().move_instance(&self.gpu, instance, &world_from_mesh);
+            move_instance(renderer, instance, &world_from_mesh);
+        }
+    }
+
+    fn show(&mut self, instance: usize, shown: bool) {
+        for renderer in [&mut self.kept, &mut self.drawn] {
+            let instance = renderer.casters().instance(instance).unwrap();
+            renderer.casters_mut().show(instance, shown).unwrap();
         }
     }
 
@@ -83,9 +89,11 @@ fn live_through(pair: &mut Pair) -> [u32; 2] {
     }
     pair.place(movable[1 % movable.len()], up(1.5));
     pair.check("another moves");
-    pair.place(movable[0], DVec3::NAN);
-    pair.check("one is nowhere");
-    pair.check("it stays there");
+    pair.show(movable[0], false);
+    pair.check("one is hidden");
+    pair.check("it stays hidden");
+    pair.show(movable[0], true);
+    pair.check("it is shown again");
     pair.place(movable[0], DVec3::new(9.0 * size, 0.0, 0.0));
     pair.check("one leaves the scene");
     pair.place(movable[0], up(1.0));

@@ -6,6 +6,7 @@ use std::{
     sync::{Arc, LazyLock, Mutex},
     time::Instant,
 };
+use umbrage::core::glam::DAffine3;
 use umbrage::core::{Image, Scene};
 use umbrage::{Gpu, find};
 use umbrage_metrics::{Comparison, Scores, discontinuities, map_reach, score};
@@ -34,6 +35,12 @@ pub fn renderer(gpu: &Gpu, scene: &Scene, light: usize, id: &str, set: &str, siz
     let info = find(id).unwrap();
     let technique = info.settings(&pairs(set)).unwrap().make(gpu).unwrap();
     Renderer::new(gpu, scene, size.0, size.1, vec![LightPass { light, technique }]).unwrap()
+}
+
+/// Moves an instance of the scene that a renderer was made of.
+pub fn move_instance(renderer: &mut Renderer, number: usize, world_from_mesh: &DAffine3) {
+    let instance = renderer.casters().instance(number).expect("an instance of the scene");
+    renderer.casters_mut().move_instance(instance, world_from_mesh).expect("a transform");
 }
 
 /// The visibility that `renderer` gives for the scene's camera.

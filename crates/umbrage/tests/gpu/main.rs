@@ -40,3 +40,4 @@ mod warped;
 mod wedges;
 mod wedges_tables;
 mod wedges_views;
+mod world;

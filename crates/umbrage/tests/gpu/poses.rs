@@ -15,7 +15,8 @@ fn score_bent(start: &Scene, scene: &Scene, light: usize, id: &str, set: &str, s
     visibility(&mut renderer, scene);
     for (number, instance) in scene.instances.iter().enumerate() {
         if let Some(joints) = scene.joints(instance) {
-            renderer.casters_mut().set_pose(number, &joints);
+            let instance = renderer.casters().instance(number).expect("an instance of the scene");
+            renderer.casters_mut().set_pose(instance, &joints).expect("a pose");
         }
     }
     score_frame(&mut renderer, scene, light, SIZE, samples)

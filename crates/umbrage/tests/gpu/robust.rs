@@ -115,6 +115,11 @@ fn a_light_that_is_not_there_is_an_error() {
     assert!(error.to_string().contains("no light 7"), "{error}");
 }
 
+/// From the largest half float below 1 to 1.
+fn half_below_one() -> f32 {
+    1.0 / 2048.0
+}
+
 #[test]
 fn lights_in_casters_and_far_away_are_no_trouble() {
     let gpu = gpu();
@@ -125,7 +130,10 @@ fn lights_in_casters_and_far_away_are_no_trouble() {
         let scene = box_scene(LightShape::Point { position });
         for id in ["shadow-map", "pcf", "volume", "projective", "projective-fake"] {
             let seen = visibility(&mut renderer(&gpu, &scene, 0, id, "", (160, 120)), &scene);
-            assert_eq!(seen[(80, 110)], floor, "{id} {position}");
+            // Weights of a filter may add up to one rounding less than 1, which a driver that cuts
+            // half floats off stores as the next below.
+            let off = (seen[(80, 110)] - floor).abs();
+            assert!(off <= half_below_one(), "{id} {position}: {off} off");
         }
     }
 }

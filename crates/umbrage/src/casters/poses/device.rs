@@ -1,8 +1,9 @@
 //! Pipelines and buffers that bend meshes.
 
+use crate::casters::geometry::Geometry;
 use crate::compute::compute_pipeline;
 use crate::fullscreen::{STORAGE, bind, layout};
-use crate::{gpu::Gpu, shader::Shader, shader::shader_struct};
+use crate::{error::Error, gpu::Gpu, shader::Shader, shader::shader_struct};
 
 /// Bends vertices; then makes planes of the triangles between them.
 pub(crate) const SHADERS: &[Shader] = &[
@@ -43,6 +44,12 @@ pub(super) struct Device {
     pub vertices: wgpu::ComputePipeline,
     pub normals: wgpu::ComputePipeline,
     pub planes: wgpu::ComputePipeline,
+    layouts: [wgpu::BindGroupLayout; 3],
+    bound: Option<Bound>,
+}
+
+/// Buffers, and what binds them.
+pub(super) struct Bound {
     pub work: wgpu::Buffer,
     pub joints: wgpu::Buffer,
     /// The meshes, and the positions of all.
@@ -51,7 +58,8 @@ pub(super) struct Device {
     pub of_normals: wgpu::BindGroup,
     /// Joints and weights.
     pub of_joints: wgpu::BindGroup,
-    pub bytes: u64,
+    /// Positions, attributes and weights of all meshes.
+    of: [wgpu::Buffer; 3],
 }
 
 /// A storage buffer that is written.
@@ -94,27 +102,69 @@ fn written_group(
 }
 
 impl Device {
-    pub fn new(gpu: &Gpu, posed: usize, joints: usize, weights: &[u32], vertices: [&wgpu::Buffer; 2]) -> Self {
+    pub fn new(gpu: &Gpu) -> Self {
         let (positions, normals) = (written_layout(gpu, 1), written_layout(gpu, 2));
-        let joint_layout = layout(gpu, "joints", wgpu::ShaderStages::COMPUTE, &[STORAGE; 2]);
+        let joints = layout(gpu, "joints", wgpu::ShaderStages::COMPUTE, &[STORAGE; 2]);
         let planes = planes_layout(gpu);
         let pipeline = |shader: &Shader, entry, groups: &[Option<&wgpu::BindGroupLayout>]| {
             compute_pipeline(gpu, &shader.module(gpu), entry, groups, &[])
         };
-        use wgpu::BufferUsages as Usage;
-        let work = gpu.buffer("poses", &vec![PosedMesh::default(); posed], Usage::STORAGE | Usage::COPY_DST);
-        let rows = gpu.buffer("joints", &vec![JointRows::default(); joints], Usage::STORAGE | Usage::COPY_DST);
-        let weights = gpu.buffer("weights", weights, Usage::STORAGE);
         Self {
-            vertices: pipeline(&SHADERS[0], "pose_vertices", &[Some(&positions), Some(&joint_layout)]),
-            normals: pipeline(&SHADERS[0], "pose_normals", &[Some(&normals), Some(&joint_layout)]),
+            vertices: pipeline(&SHADERS[0], "pose_vertices", &[Some(&positions), Some(&joints)]),
+            normals: pipeline(&SHADERS[0], "pose_normals", &[Some(&normals), Some(&joints)]),
             planes: pipeline(&SHADERS[1], "pose_planes", &[Some(&positions), Some(&planes)]),
-            of_positions: written_group(gpu, &positions, &work, (1, vertices[0])),
-            of_normals: written_group(gpu, &normals, &work, (2, vertices[1])),
-            of_joints: bind(gpu, "joints", &joint_layout, &[&rows, &weights].map(|b| b.as_entire_binding())),
-            bytes: [&work, &rows, &weights].iter().map(|b| b.size()).sum(),
-            work,
-            joints: rows,
+            layouts: [positions, normals, joints],
+            bound: None,
         }
+    }
+
+    pub fn bound(&self) -> Option<&Bound> {
+        self.bound.as_ref()
+    }
+
+    /// Has room for so many meshes and joints, and binds the buffers that there are now.
+    ///
+    /// # Errors
+    /// [`Error::Size`] where a shader can't have all vertices.
+    pub fn fit(&mut self, gpu: &Gpu, geometry: &Geometry, counts: [usize; 2]) -> Result<(), Error> {
+        let needed = [size_of::<PosedMesh>(), size_of::<JointRows>()].iter().zip(counts).map(|(a, b)| (a * b) as u64);
+        let needed: Vec<u64> = needed.collect();
+        let of = [&geometry.positions, &geometry.attributes, &geometry.weights].map(|s| s.buffer().clone());
+        let holds = |b: &Bound| b.of == of && b.work.size() >= needed[0] && b.joints.size() >= needed[1];
+        if self.bound.as_ref().is_some_and(holds) {
+            return Ok(());
+        }
+        let limit = gpu.device.limits().max_storage_buffer_binding_size;
+        if let Some(size) = of.iter().map(wgpu::Buffer::size).find(|size| *size > limit) {
+            return Err(Error::Size { what: "the vertices of a scene with poses".into(), size, limit });
+        }
+        let buffer = |label, before: Option<&wgpu::Buffer>, needed: u64| {
+            let size = before.map_or(0, wgpu::Buffer::size);
+            let size = if size < needed { (needed + needed / 2).min(limit.max(needed)) } else { size };
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: size.next_multiple_of(16).max(16),
+                usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        };
+        let before = self.bound.take();
+        let work = buffer("poses", before.as_ref().map(|b| &b.work), needed[0]);
+        let joints = buffer("joints", before.as_ref().map(|b| &b.joints), needed[1]);
+        let [positions, normals, of_joints] = &self.layouts;
+        self.bound = Some(Bound {
+            of_positions: written_group(gpu, positions, &work, (1, &of[0])),
+            of_normals: written_group(gpu, normals, &work, (2, &of[1])),
+            of_joints: bind(gpu, "joints", of_joints, &[&joints, &of[2]].map(|b| b.as_entire_binding())),
+            work,
+            joints,
+            of,
+        });
+        Ok(())
+    }
+
+    /// Its own, without vertices and weights.
+    pub fn bytes(&self) -> u64 {
+        self.bound.as_ref().map_or(0, |b| b.work.size() + b.joints.size())
     }
 }

@@ -122,7 +122,7 @@ impl Shown {
     /// `memory`: places that are not needed any more.
     fn of(frame: &Frame<'_>, view: &LightView, receivers: Bounds, places: &[u32], memory: Option<Places>) -> Self {
         let mut casters = memory.unwrap_or_default();
-        casters.clear(frame.casters.len());
+        casters.clear(frame.casters.placed().len());
         places.iter().for_each(|place| {
             casters.insert(*place);
         });

@@ -64,7 +64,7 @@ struct Buffers {
 /// The casters, when they last moved, the light, and the views that chose among them.
 #[derive(PartialEq)]
 struct Key {
-    casters: wgpu::Buffer,
+    casters: u64,
     moves: u64,
     light: DVec4,
     seen_by: Vec<LightView>,
@@ -102,26 +102,26 @@ impl Contour {
     pub fn prepare(&mut self, gpu: &Gpu, casters: &Casters, light: DVec4, seen_by: &[LightView]) -> Result<(), Error> {
         let moves = casters.moves().now();
         let is_known = |key: &Key| {
-            (&key.casters, key.moves, key.light) == (&casters.instances, moves, light) && key.seen_by == seen_by
+            (key.casters, key.moves, key.light) == (casters.version(), moves, light) && key.seen_by == seen_by
         };
         if self.made_for.as_ref().is_some_and(is_known) {
             return Ok(());
         }
         self.made_for = None;
         self.choose(gpu, casters, light, seen_by)?;
-        self.made_for = Some(Key { casters: casters.instances.clone(), moves, light, seen_by: seen_by.to_vec() });
+        self.made_for = Some(Key { casters: casters.version(), moves, light, seen_by: seen_by.to_vec() });
         Ok(())
     }
 
     fn choose(&mut self, gpu: &Gpu, casters: &Casters, light: DVec4, seen_by: &[LightView]) -> Result<(), Error> {
         let edges = casters.edges(gpu)?;
-        self.known.clear(casters.len());
+        self.known.clear(casters.placed().len());
         self.found.clear();
         for view in seen_by {
             casters.casting().query(&view.frustum(), &mut self.found);
         }
         self.found.retain(|place| self.known.insert(*place));
-        self.found.sort_unstable();
+        casters.sort(&mut self.found);
         let has_edges = |place: &&u32| {
             let placed = &casters.placed()[**place as usize];
             let has_some = !edges.of_mesh(placed.mesh).adjacency.edges.is_empty();
@@ -169,7 +169,7 @@ impl Contour {
         let mut pass = passes.compute("silhouettes");
         pass.set_pipeline(&self.make);
         pass.set_bind_group(0, self.silhouettes.found_by_gpu(), &[]);
-        pass.set_bind_group(1, &edges.make_edges, &[]);
+        pass.set_bind_group(1, &edges.groups().make_edges, &[]);
         pass.set_bind_group(2, &buffers.write, &[]);
         pass.dispatch_workgroups(chunks.min(ROW), chunks.div_ceil(ROW), 1);
     }

@@ -9,8 +9,8 @@ const REST: usize = 30;
 /// The casters that have moved lately.
 #[derive(Default)]
 pub(super) struct Movers {
-    /// Whose they are: the buffer of their instances.
-    of: Option<wgpu::Buffer>,
+    /// Whose they are: [`Casters::version`].
+    of: u64,
     /// [`crate::casters::Moves::now`] of the last [`REST`] frames.
     frames: VecDeque<u64>,
     /// Places of those that move.
@@ -28,16 +28,16 @@ impl Movers {
     /// Once a frame. False where these are other casters than in the last.
     pub fn update(&mut self, casters: &Casters) -> bool {
         let now = casters.moves().now();
-        let known = self.of.as_ref() == Some(&casters.instances);
+        let known = self.of == casters.version();
         if !known {
-            *self = Self { of: Some(casters.instances.clone()), ..Self::default() };
-            self.set.clear(casters.len());
+            *self = Self { of: casters.version(), ..Self::default() };
         }
         let seen = self.frames.back().copied().unwrap_or(now);
         self.moved.clear();
         self.moved.extend(casters.moves().since(seen));
         self.started.clear();
         for &place in &self.moved {
+            self.set.make_room(place);
             if self.set.insert(place) {
                 self.moving.push(place);
                 self.started.push(place);

@@ -18,9 +18,9 @@ pub(super) struct Fitter {
     /// How far apart the points of the light are whose shadows end on each other's maps, metres;
     /// 0 where there is one.
     pub apart_m: f64,
-    /// Whose boxes those of the casters are, and when: the buffer of their instances and
+    /// Whose boxes those of the casters are, and when: [`crate::Casters::version`] and
     /// [`crate::casters::Moves::now`].
-    scene_of: Option<(wgpu::Buffer, u64)>,
+    scene_of: Option<(u64, u64)>,
 }
 
 /// Most boxes that stand for all casters in a fit, and for all receivers that are seen.
@@ -57,11 +57,12 @@ impl Fitter {
     fn gather(&mut self, view: &View<'_>, scene: &mut FitScene) {
         let FitScene { casters, receivers, around } = scene;
         *around = view.casters.all_bounds();
-        let now = view.casters.moves().now();
-        if self.scene_of.as_ref().is_none_or(|(of, then)| (of, *then) != (&view.casters.instances, now)) {
+        let now = (view.casters.version(), view.casters.moves().now());
+        if self.scene_of != Some(now) {
             casters.clear();
             view.casters.casting().cut(&EVERYWHERE, MOST_BOXES, casters);
-            self.scene_of = Some((view.casters.instances.clone(), now));
+            sort(casters);
+            self.scene_of = Some(now);
         }
         self.choice.margin_m = margin(view, casters, self.apart_m);
         receivers.clear();
@@ -71,7 +72,17 @@ impl Fitter {
             Focus::Visible => receiving.cut(&self.choice.seen(view), MOST_BOXES, receivers),
         }
         receivers.extend(view.casters.receiving_in());
+        sort(receivers);
     }
+}
+
+/// Boxes in an order of their own, whatever order casters came in.
+fn sort(boxes: &mut [Bounds]) {
+    let key = |b: &Bounds| [b.min.to_array(), b.max.to_array()];
+    boxes.sort_unstable_by(|a, b| {
+        let pairs = key(a).into_iter().flatten().zip(key(b).into_iter().flatten());
+        pairs.map(|(a, b)| a.total_cmp(&b)).find(|order| order.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
+    });
 }
 
 /// How far the shadow of a blocker may move on a receiver while the light moves by `apart_m`: as

@@ -38,16 +38,28 @@ struct Meshes {
     triangles: Grown,
     node_data: Vec<TreeNode>,
     triangle_data: Vec<u32>,
-    of: Vec<Range<u32>>,
-    /// Nodes and triangles of meshes that are not posed come first and stay.
-    fixed: (usize, usize),
+    /// By number of the mesh.
+    of: Vec<MeshTree>,
     is_new: bool,
 }
 
+/// The tree of one mesh.
+#[derive(Default)]
+struct MeshTree {
+    /// The version of the mesh that it is the tree of; a posed one is made in
+    /// every frame.
+    version: u64,
+    nodes: Vec<TreeNode>,
+    /// Vertices of triangles in the order of the leaves.
+    triangles: Vec<u32>,
+    /// Where its nodes are among those of all.
+    place: Range<u32>,
+}
+
 impl Trees {
-    pub fn new(gpu: &Gpu, casters: &Casters) -> Self {
+    pub fn new(gpu: &Gpu) -> Self {
         Self {
-            meshes: Meshes::new(gpu, casters),
+            meshes: Meshes::new(gpu),
             top: Grown::new(gpu, "boxes of casters"),
             placed: Grown::new(gpu, "placed meshes"),
             top_data: Vec::new(),
@@ -57,7 +69,7 @@ impl Trees {
 
     /// Trees of the chosen casters; true where buffers were made anew.
     pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, chosen: &[u32]) -> Result<bool, Error> {
-        self.meshes.pose(view.casters);
+        self.meshes.follow(view.casters);
         let eye = view.camera.eye;
         let (mut boxes, mut records) = (Vec::with_capacity(chosen.len()), Vec::with_capacity(chosen.len()));
         for place in chosen {
@@ -65,14 +77,13 @@ impl Trees {
             let Some(sides) = &caster.sides else { continue };
             let bounds = caster.bounds.grown(ROUNDING * caster.bounds.largest_coordinate());
             boxes.push(Boxed((bounds.min - eye).as_vec3(), (bounds.max - eye).as_vec3()));
-            records.push(Placed::of(&sides.mesh_from_world, view, self.meshes.of[caster.mesh as usize].clone()));
+            records.push(Placed::of(&sides.mesh_from_world, view, self.meshes.of[caster.mesh as usize].place.clone()));
         }
         self.top_data.clear();
         let mut order = Vec::with_capacity(boxes.len());
         append(&boxes, &mut self.top_data, &mut order);
-        if self.top_data.is_empty() {
-            self.top_data.push(TreeNode::default());
-        }
+        // It ends the walk, or that would go on among the casters of an earlier frame.
+        self.top_data.push(TreeNode::default());
         self.placed_data.clear();
         self.placed_data.extend(order.iter().map(|i| records[*i as usize]));
         let top = self.top.fit(gpu, size_of_val(&self.top_data[..]))?;
@@ -130,46 +141,45 @@ impl Placed {
 }
 
 impl Meshes {
-    fn new(gpu: &Gpu, casters: &Casters) -> Self {
-        let parts = casters.meshes();
-        let mut made = Self {
+    fn new(gpu: &Gpu) -> Self {
+        Self {
             nodes: Grown::new(gpu, "boxes"),
             triangles: Grown::new(gpu, "triangles"),
             node_data: Vec::new(),
             triangle_data: Vec::new(),
-            of: vec![0..0; parts.len()],
-            fixed: (0, 0),
+            of: Vec::new(),
             is_new: true,
-        };
-        for (number, part) in parts.iter().enumerate().filter(|(n, _)| casters.posed_mesh(*n).is_none()) {
-            made.add(number, &part.mesh, part.base_vertex);
         }
-        made.fixed = (made.node_data.len(), made.triangle_data.len());
-        made
     }
 
-    /// Builds the trees of posed meshes anew.
-    fn pose(&mut self, casters: &Casters) {
-        self.node_data.truncate(self.fixed.0);
-        self.triangle_data.truncate(self.fixed.1);
-        for (number, part) in casters.meshes().iter().enumerate() {
-            if let Some(posed) = casters.posed_mesh(number) {
-                self.add(number, &posed, part.base_vertex);
-                self.is_new = true;
+    /// Builds the trees of meshes that are new, have changed or are posed.
+    fn follow(&mut self, casters: &Casters) {
+        self.of.resize_with(casters.meshes().len(), MeshTree::default);
+        let mut is_new = false;
+        for (number, (part, tree)) in casters.meshes().iter().zip(&mut self.of).enumerate() {
+            let posed = casters.posed_mesh(number);
+            if posed.is_some() || tree.version != part.version {
+                *tree = MeshTree::of(posed.as_ref().unwrap_or(&part.mesh), part.base_vertex);
+                tree.version = part.version;
+                is_new = true;
             }
         }
+        if is_new {
+            self.gather();
+        }
     }
 
-    fn add(&mut self, number: usize, mesh: &Mesh, base_vertex: u32) {
-        let is_whole = |t: &[u32; 3]| t.iter().all(|i| mesh.positions.get(*i as usize).is_some_and(|p| p.is_finite()));
-        let whole: Vec<[u32; 3]> = mesh.triangles().filter(is_whole).collect();
-        let boxes: Vec<Boxed> = whole.iter().map(|t| around(mesh.corners(*t))).collect();
-        let (first_node, mut order) = (self.node_data.len() as u32, vec![0; self.triangle_data.len() / 3]);
-        let known = order.len();
-        append(&boxes, &mut self.node_data, &mut order);
-        let vertices = order[known..].iter().flat_map(|i| whole[*i as usize].map(|v| base_vertex + v));
-        self.triangle_data.extend(vertices);
-        self.of[number] = first_node..self.node_data.len() as u32;
+    /// Puts all trees one after the other.
+    fn gather(&mut self) {
+        self.is_new = true;
+        self.node_data.clear();
+        self.triangle_data.clear();
+        for tree in &mut self.of {
+            let (first, triangle) = (self.node_data.len() as u32, self.triangle_data.len() as u32 / 3);
+            self.node_data.extend(tree.nodes.iter().map(|node| node.moved(first, triangle)));
+            self.triangle_data.extend(&tree.triangles);
+            tree.place = first..self.node_data.len() as u32;
+        }
     }
 
     fn fit(&mut self, gpu: &Gpu) -> Result<bool, Error> {
@@ -177,6 +187,18 @@ impl Meshes {
         let triangles = self.triangles.fit(gpu, size_of_val(&self.triangle_data[..]))?;
         self.is_new |= nodes || triangles;
         Ok(nodes || triangles)
+    }
+}
+
+impl MeshTree {
+    fn of(mesh: &Mesh, base_vertex: u32) -> Self {
+        let is_whole = |t: &[u32; 3]| t.iter().all(|i| mesh.positions.get(*i as usize).is_some_and(|p| p.is_finite()));
+        let whole: Vec<[u32; 3]> = mesh.triangles().filter(is_whole).collect();
+        let boxes: Vec<Boxed> = whole.iter().map(|t| around(mesh.corners(*t))).collect();
+        let (mut nodes, mut order) = (Vec::new(), Vec::new());
+        append(&boxes, &mut nodes, &mut order);
+        let triangles = order.iter().flat_map(|i| whole[*i as usize].map(|v| base_vertex + v)).collect();
+        Self { nodes, triangles, ..Self::default() }
     }
 }
 

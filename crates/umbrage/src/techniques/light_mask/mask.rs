@@ -37,8 +37,9 @@ pub(super) struct Mask {
     made_for: Option<(Face, bool, Option<Texture>)>,
     half_planes: wgpu::Buffer,
     new_half_planes: Option<Vec<[u32; 4]>>,
-    /// With the vertices of the casters that they are trees of.
-    trees: Option<(wgpu::Buffer, Trees)>,
+    /// With the [`crate::Casters::version`] of the casters that they are trees of, and their
+    /// vertices.
+    trees: Option<(u64, wgpu::Buffer, Trees)>,
     bind_group: Option<wgpu::BindGroup>,
     /// Half planes and trees on the GPU.
     kept: Kept,
@@ -68,17 +69,26 @@ impl Mask {
 
     /// Makes trees of the chosen casters, half planes and pipelines.
     pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, form: &Form, chosen: &[u32]) -> Result<(), Error> {
-        let positions = &view.casters.positions;
-        if self.trees.as_ref().is_none_or(|(of, _)| of != positions) {
-            self.trees = Some((positions.clone(), Trees::new(gpu, view.casters)));
-            self.bind_group = None;
+        let positions = view.casters.positions();
+        let version = view.casters.version();
+        match &mut self.trees {
+            Some((of, bound, _)) if *of == version => {
+                if bound != positions {
+                    *bound = positions.clone();
+                    self.bind_group = None;
+                }
+            }
+            _ => {
+                self.trees = Some((version, positions.clone(), Trees::new(gpu)));
+                self.bind_group = None;
+            }
         }
         let holds = self.kept.holds();
         if !holds {
             self.made_for = None;
         }
         self.make_half_planes(view, form);
-        let Some((_, trees)) = &mut self.trees else { return Ok(()) };
+        let Some((.., trees)) = &mut self.trees else { return Ok(()) };
         if !holds {
             trees.forget();
         }
@@ -137,7 +147,7 @@ impl Mask {
     pub fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, form: &Form, visibility: &VisibilityTarget) {
         let key = (form.face, view.receivers.has_normals);
         let pipeline = self.pipelines.iter().find(|(k, _)| *k == key);
-        let (Some((_, pipeline)), Some(group), Some((_, trees))) = (pipeline, &self.bind_group, &mut self.trees) else {
+        let (Some((_, pipeline)), Some(group), Some((.., trees))) = (pipeline, &self.bind_group, &mut self.trees) else {
             return;
         };
         let frame = Frame { rounding: ROUNDING, cap_chunks: 0, scale: 1, wedges: [0; 2] };
@@ -159,7 +169,7 @@ impl Mask {
 
     /// Bytes of GPU memory.
     pub fn bytes(&self) -> u64 {
-        let trees = self.trees.iter().flat_map(|(_, trees)| trees.buffers());
+        let trees = self.trees.iter().flat_map(|(.., trees)| trees.buffers());
         trees.chain([&self.light, &self.eye, &self.half_planes]).map(|b| b.size()).sum()
     }
 }

@@ -19,6 +19,15 @@ shader_struct! {
 /// Leaves have so many things at most; their number takes the low bits of `TreeNode::leaf`.
 const LEAF_BITS: u32 = 8;
 
+impl TreeNode {
+    /// The node where its tree starts at node `first` and its things at number `thing`.
+    pub fn moved(&self, first: u32, thing: u32) -> Self {
+        let is_leaf = self.leaf & ((1 << LEAF_BITS) - 1) > 0;
+        let leaf = if is_leaf { self.leaf + (thing << LEAF_BITS) } else { self.leaf };
+        Self { next: self.next + first, leaf, ..*self }
+    }
+}
+
 /// A box around one thing.
 pub(super) struct Boxed(pub Vec3, pub Vec3);
 

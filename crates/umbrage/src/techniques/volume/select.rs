@@ -60,7 +60,7 @@ impl Selection {
         }
         let edges = casters.edges(gpu)?;
         if options.is_finite() && options.cull.light && !shadow_hull::may_light_view(view.light, camera) {
-            self.fates.extend(casting(casters).map(|place| (place, Fate::OutOfLight)));
+            self.fates.extend(casters.casting_places().into_iter().map(|place| (place, Fate::OutOfLight)));
             return Ok(light);
         }
         if options.is_finite()
@@ -96,9 +96,9 @@ impl Selection {
             if let Some(hull) = shadow_hull(&s.view.camera, &lit, s.light) {
                 casters.casting().query(&hull, &mut self.found);
             }
-            self.found.sort_unstable();
+            casters.sort(&mut self.found);
         } else {
-            self.found.extend(casting(casters));
+            self.found.extend(casters.casting_places());
         }
         let shadowed = casters::Light { center: s.view.light.shape.center(), receivers };
         let fates = &mut self.fates;
@@ -130,9 +130,10 @@ impl Selection {
             let bounds = s.view.casters.placed()[place as usize].bounds;
             bounds.radius() / bounds.center().distance(eye).max(bounds.radius())
         };
-        self.found.sort_by(|a, b| importance(*b).total_cmp(&importance(*a)).then(a.cmp(b)));
+        // Of those that are as important the older one comes first, as they are sorted.
+        self.found.sort_by(|a, b| importance(*b).total_cmp(&importance(*a)));
         self.fates.extend(self.found.drain(budget..).map(|place| (place, Fate::OverBudget)));
-        self.found.sort_unstable();
+        s.view.casters.sort(&mut self.found);
     }
 
     fn classify(&mut self, s: &Situation<'_>, edges: &Edges) {
@@ -147,7 +148,7 @@ impl Selection {
             self.fates.push((place, if throw.z_fail { Fate::FromInfinity } else { Fate::FromEye }));
             self.throws.push(throw);
         }
-        self.throws.sort_by_key(|t| (t.z_fail, t.place));
+        self.throws.sort_by_key(|t| t.z_fail);
     }
 
     fn throw(&mut self, s: &Situation<'_>, place: u32, placed: &Placed, mesh: &MeshEdges) -> Throw {
@@ -227,7 +228,8 @@ impl Selection {
 
     /// What became of each caster, by its number in [`Casters::placed`].
     pub fn fates(&self, casters: &Casters) -> Vec<(u32, Fate)> {
-        let mut all: Vec<_> = casting(casters).map(|place| (place, Fate::OutOfView)).collect();
+        let places = casters.casting_places().into_iter();
+        let mut all: Vec<_> = places.map(|place| (place, Fate::OutOfView)).collect();
         for &(place, fate) in &self.fates {
             if let Some(entry) = all.iter_mut().find(|(p, _)| *p == place) {
                 entry.1 = fate;
@@ -235,8 +237,4 @@ impl Selection {
         }
         all
     }
-}
-
-fn casting(casters: &Casters) -> impl Iterator<Item = u32> + '_ {
-    (0..).zip(casters.placed()).filter(|(_, p)| p.casts).map(|(place, _)| place)
 }

@@ -177,7 +177,7 @@ impl Volume {
         for view in views {
             let light = self.choose(gpu, view)?;
             let Some(edges) = view.casters.made_edges().filter(|_| !self.selection.throws.is_empty()) else { continue };
-            let layers = edges.layers.saturating_mul(views.len() as u32);
+            let layers = view.casters.layers(edges).saturating_mul(views.len() as u32);
             self.kind = self.choose_counter(gpu, view.receivers, layers)?;
             self.make_ready(gpu, view, light)?;
             self.draws += self.count_volumes(passes, view, edges, start.take());
@@ -198,7 +198,7 @@ impl Technique for Volume {
         let light = self.choose(gpu, view)?;
         let is_lit = self.selection.throws.is_empty();
         if let Some(edges) = view.casters.made_edges().filter(|_| !is_lit) {
-            self.kind = self.choose_counter(gpu, view.receivers, edges.layers)?;
+            self.kind = self.choose_counter(gpu, view.receivers, view.casters.layers(edges))?;
             self.make_ready(gpu, view, light)?;
         }
         if let Some(views) = &mut self.views {

@@ -71,7 +71,7 @@ impl Host {
         self.scene.advance(seconds);
         for (number, instance) in self.scene.instances.iter().enumerate() {
             if let Some(joints) = self.scene.joints(instance) {
-                self.casters.set_pose(number, &joints);
+                self.casters.set_pose(self.casters.instance(number).unwrap(), &joints).unwrap();
             }
         }
     }
@@ -80,7 +80,7 @@ impl Host {
     fn record(&mut self) -> Result<wgpu::CommandEncoder, Error> {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let mut passes = self.recorder.begin(&mut encoder);
-        self.casters.record_poses(&mut passes);
+        self.casters.record(&mut passes)?;
         let view = View {
             camera: self.camera,
             receivers: &self.receivers,

@@ -82,7 +82,8 @@ fn a_pose_that_was_recorded_into_a_frame_that_failed_is_not_lost() {
 fn shift(host: &mut Host) {
     for (number, instance) in host.scene.instances.iter_mut().enumerate().skip(1) {
         instance.world_from_mesh = DAffine3::from_translation(DVec3::new(0.9, 0.0, 0.6)) * instance.world_from_mesh;
-        host.casters.move_instance(&host.gpu, number, &instance.world_from_mesh);
+        let id = host.casters.instance(number).unwrap();
+        host.casters.move_instance(id, &instance.world_from_mesh).unwrap();
     }
 }
 

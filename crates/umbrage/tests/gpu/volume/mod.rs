@@ -20,7 +20,7 @@ mod references;
 mod transforms;
 mod views;
 
-use crate::common::{mask, renderer};
+use crate::common::{mask, move_instance, renderer};
 use umbrage::Gpu;
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Camera, Image, Light, LightShape, Material, Scene, primitive};
@@ -138,12 +138,13 @@ impl Bench {
     }
 
     /// Moves and bends the instances to how `scene` has them; the truth does not follow.
-    pub fn move_all(&mut self, gpu: &Gpu, scene: &Scene) {
+    pub fn move_all(&mut self, scene: &Scene) {
         for (_, renderer) in &mut self.renderers {
             for (i, instance) in scene.instances.iter().enumerate() {
-                renderer.casters_mut().move_instance(gpu, i, &instance.world_from_mesh);
+                move_instance(renderer, i, &instance.world_from_mesh);
                 if let Some(joints) = scene.joints(instance) {
-                    renderer.casters_mut().set_pose(i, &joints);
+                    let instance = renderer.casters().instance(i).expect("an instance of the scene");
+                    renderer.casters_mut().set_pose(instance, &joints).expect("a pose");
                 }
             }
         }

@@ -43,7 +43,7 @@ fn every_frame_is_right() {
     for i in 0..30 {
         let mut scene = bench.scene.clone();
         let (camera, light) = step(&mut scene, i);
-        bench.move_all(&gpu, &scene);
+        bench.move_all(&scene);
         let target = target(&Tracer::new(&scene), &camera, &light, SIZE, 60.0);
         wrong.extend(bench.compare(&format!("frame {i}"), &camera, &light, &target));
     }
@@ -61,7 +61,7 @@ fn frames_like_earlier_ones_create_nothing() {
                 for i in 0..12 {
                     let mut scene = bench.scene.clone();
                     let (camera, light) = step(&mut scene, i);
-                    bench.move_all(&gpu, &scene);
+                    bench.move_all(&scene);
                     bench.draw(&camera, &light, |renderer| renderer.wait().unwrap());
                 }
             };
@@ -83,7 +83,7 @@ fn an_eye_that_comes_into_a_shadow_or_a_caster_creates_nothing() {
         let mut bench = Bench::new(&gpu, scene(), SIZE, &[count]);
         let mut scene = bench.scene.clone();
         let (far, light) = step(&mut scene, 2);
-        bench.move_all(&gpu, &scene);
+        bench.move_all(&scene);
         let cube = scene.instances[1].world_from_mesh.translation;
         let below = cube + (cube - light.shape.center().truncate()) * 0.3;
         let mut look = |eye: DVec3| {

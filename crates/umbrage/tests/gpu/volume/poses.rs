@@ -27,7 +27,7 @@ fn every_pose_is_right() {
     let mut dark = 0;
     for i in 0..8 {
         scene.advance(0.55);
-        bench.move_all(&gpu, &scene);
+        bench.move_all(&scene);
         let mut camera = scene.camera.clone();
         let shape = match i % 3 {
             0 => scene.lights[0].shape.clone(),
@@ -58,7 +58,7 @@ fn poses_create_nothing() {
         let mut frames = |count| {
             for _ in 0..count {
                 scene.advance(0.11);
-                bench.move_all(&gpu, &scene);
+                bench.move_all(&scene);
                 bench.draw(&camera, &light, |renderer| renderer.wait().unwrap());
             }
             alive(&gpu)

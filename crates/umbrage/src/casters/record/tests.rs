@@ -1,0 +1,84 @@
+//! Needs a graphics adapter.
+
+use crate::{Casters, Gpu, Placement, Recorder};
+use umbrage_core::glam::{DAffine3, DVec3};
+use umbrage_core::{Material, primitive};
+
+fn read(gpu: &Gpu, buffer: &wgpu::Buffer) -> Vec<f32> {
+    let usage = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
+    let back = gpu.buffer("back", &vec![0u8; buffer.size() as usize], usage);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    encoder.copy_buffer_to_buffer(buffer, 0, &back, 0, buffer.size());
+    gpu.queue.submit([encoder.finish()]);
+    back.map_async(wgpu::MapMode::Read, .., |result| result.unwrap());
+    gpu.wait().unwrap();
+    bytemuck::pod_collect_to_vec(&back.get_mapped_range(..).unwrap())
+}
+
+/// Records what has changed, and submits or drops it.
+fn record(gpu: &Gpu, casters: &mut Casters, submits: bool) {
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let mut recorder = Recorder::new(gpu);
+    let mut passes = recorder.begin(&mut encoder);
+    casters.record(&mut passes).unwrap();
+    passes.finish();
+    if submits {
+        gpu.queue.submit([encoder.finish()]);
+        gpu.wait().unwrap();
+    }
+}
+
+fn heights(gpu: &Gpu, casters: &Casters) -> Vec<f32> {
+    read(gpu, casters.instances.buffer()).chunks(16).take(casters.len()).map(|i| i[7]).collect()
+}
+
+#[test]
+fn what_was_recorded_into_a_dropped_encoder_is_recorded_again() {
+    let gpu = Gpu::request(None).unwrap();
+    let mut casters = Casters::empty(&gpu).unwrap();
+    let material = casters.add_material(&Material::default(), None).unwrap();
+    let (mut ids, mut wanted) = (Vec::new(), Vec::new());
+    for round in 0..12 {
+        // New meshes and instances have buffers grow, too.
+        let mesh = casters.add_mesh(&primitive::sphere(4 + round, 4)).unwrap();
+        let up = |y: f64| DAffine3::from_translation(DVec3::Y * y);
+        ids.push(casters.insert(&Placement::new(mesh, material, up(0.25 * f64::from(round)))).unwrap());
+        wanted.push(0.25 * round as f32);
+        casters.move_instance(ids[0], &up(f64::from(round))).unwrap();
+        wanted[0] = round as f32;
+        record(&gpu, &mut casters, round % 3 == 2);
+        if round % 3 == 2 {
+            assert_eq!(heights(&gpu, &casters), wanted, "round {round}");
+            let positions = read(&gpu, casters.positions());
+            for part in casters.meshes() {
+                let first = 3 * part.base_vertex as usize;
+                let known: Vec<f32> = part.mesh.positions.iter().flat_map(|p| p.to_array()).collect();
+                assert!(positions[first..first + known.len()] == known, "round {round}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_scene_that_moves_far_away_is_sent_anew_about_its_own_middle() {
+    let gpu = Gpu::request(None).unwrap();
+    let mut casters = Casters::empty(&gpu).unwrap();
+    let material = casters.add_material(&Material::default(), None).unwrap();
+    let mesh = casters.add_mesh(&primitive::cube()).unwrap();
+    let ids: Vec<_> = (0..5)
+        .map(|i| Placement::new(mesh, material, DAffine3::from_translation(DVec3::Y * f64::from(i))))
+        .map(|placement| casters.insert(&placement).unwrap())
+        .collect();
+    record(&gpu, &mut casters, true);
+    let version = casters.version();
+    let far = DVec3::new(3e7, 1e7, -2e7);
+    for (i, id) in (0..).zip(&ids) {
+        let at = DAffine3::from_translation(far + DVec3::Y * f64::from(i));
+        casters.move_instance(*id, &at).unwrap();
+    }
+    record(&gpu, &mut casters, true);
+    assert_ne!(casters.version(), version, "nothing that was kept holds");
+    assert!(casters.origin().distance(far) < 64.0, "{}", casters.origin());
+    let base = (far.y - casters.origin().y) as f32;
+    assert_eq!(heights(&gpu, &casters), [0.0, 1.0, 2.0, 3.0, 4.0].map(|y: f32| base + y));
+}
