@@ -39,8 +39,9 @@ fn whatever_needs_a_lost_device_says_so() {
     let hard = umbrage::parse("shadow-map").unwrap();
     is_lost("light samples", light_samples(&gpu, &hard, 4));
     // These return no error, and what they are used for does.
-    casters.move_instance(&gpu, 1, &scene.instances[0].world_from_mesh);
-    casters.set_pose(2, &[]);
+    let [first, second] = [1, 2].map(|number| casters.instance(number).unwrap());
+    casters.move_instance(first, &scene.instances[0].world_from_mesh).unwrap();
+    casters.set_pose(second, &[]).unwrap();
     drop(Recorder::new(&gpu));
     drop(gpu.buffer("a buffer", &[1_u32], wgpu::BufferUsages::UNIFORM));
     drop(baseline::floor(&gpu));
