@@ -147,7 +147,8 @@ impl Mask {
     pub fn record(&mut self, passes: &mut Passes<'_>, view: &View<'_>, form: &Form, visibility: &VisibilityTarget) {
         let key = (form.face, view.receivers.has_normals);
         let pipeline = self.pipelines.iter().find(|(k, _)| *k == key);
-        let (Some((_, pipeline)), Some(group), Some((.., trees))) = (pipeline, &self.bind_group, &mut self.trees) else {
+        let (Some((_, pipeline)), Some(group), Some((.., trees))) = (pipeline, &self.bind_group, &mut self.trees)
+        else {
             return;
         };
         let frame = Frame { rounding: ROUNDING, cap_chunks: 0, scale: 1, wedges: [0; 2] };
