@@ -18,7 +18,7 @@ type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 /// Draws a picture of 480 × 360 pixels into the file that is named, else into none.
 pub fn main() -> Result<()> {
     let picture = picture((480, 360), Shown::Colors)?;
-    if let Some(path) = std::env::args().nth(1) {
+    if let Some(path) = std::env::args().find(|argument| argument.ends_with(".png")) {
         umbrage_io::pictures::save_png(path.as_ref(), &picture)?;
     }
     Ok(())

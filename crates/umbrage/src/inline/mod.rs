@@ -23,7 +23,7 @@ use std::fmt::Write;
 /// anywhere, since nothing in them asks for uniform control flow. `position` is relative to the
 /// eye of the [`View`](crate::View) that the technique was prepared for, in metres with the axes of
 /// the world, so that it is exact however far that is from the origin. `normal` is the geometric
-/// one, of any length, and is turned to the eye. The first is for surfaces that are among the
+/// one, of any length but 0, and is turned to the eye. The first is for surfaces that are among the
 /// [`Casters`](crate::Casters) or that cast shadows anyway: those that face away from the light are
 /// dark. A pane is lit through its back, and what is in the air has no normal.
 ///

@@ -12,6 +12,7 @@ const SIZE: (u32, u32) = (120, 90);
 
 #[test]
 fn solid_things_are_lit_as_rays_say() {
+    example::main().unwrap();
     let scene: Scene = example::things::casters();
     let tracer = Tracer::new(&scene);
     let geometry = tracer.geometry(&camera(), SIZE.0, SIZE.1);

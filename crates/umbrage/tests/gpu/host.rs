@@ -33,3 +33,23 @@ fn a_host_engine_gets_the_true_shadow() {
     println!("{wrong} of {scored} pixels differ");
     assert!(wrong * 1000 < scored, "{wrong} of {scored} pixels differ");
 }
+
+/// The host's own code apart, what is written for shadows is short: imports, and blocks under
+/// comments that name the library or the casters, up to an empty line or what the host does next.
+#[test]
+fn what_a_host_adds_for_shadows_is_short() {
+    let mut is_glue = false;
+    let mut lines = Vec::new();
+    for line in include_str!("../../examples/bring_your_own_renderer.rs").lines().map(str::trim) {
+        if line.is_empty() || line.starts_with("//") {
+            is_glue = ["// umbrage", "// The host's scene, as casters"].iter().any(|start| line.starts_with(start));
+        } else if is_glue || line.starts_with("use umbrage") {
+            lines.push(line);
+        }
+    }
+    assert!(
+        lines.iter().any(|line| line.contains("prepare(")) && lines.iter().any(|line| line.contains("Casters::new"))
+    );
+    println!("{} lines", lines.len());
+    assert!(lines.len() <= 60, "{} lines:\n{}", lines.len(), lines.join("\n"));
+}

@@ -7,17 +7,16 @@
 // triangle rounds.
 const INTERPOLATED: f32 = 5e-7;
 
-fn receiver(position: vec3f, normal: vec3f, casts: bool) -> Pixel {
+fn receiver(position: vec3f, seen: Surface) -> Pixel {
     let place = vec4f(position, 1.0);
     let clip = map.ndc_from_eye * place;
     let at = floor((clip.xy / clip.w - vec2f(-1.0, 1.0)) / map.eye.ndc_from_pixel) + 0.5;
-    let has_normal = dot(normal, normal) > 0.0;
-    // What has no surface is as a small sheet that faces the light.
-    let toward = -(map.from_light * place).xyz;
-    let turned = select(normal, -normal, dot(normal, position) > 0.0);
-    let seen = Surface(select(toward, turned, has_normal), casts && has_normal);
     let sum = dot(abs(position), vec3f(1.0));
     return Pixel(at, true, place, 1.0, seen, INTERPOLATED * sum, off_surface(map.eye, seen.normal, clip.w));
+}
+
+fn turned_to_eye(position: vec3f, normal: vec3f) -> vec3f {
+    return select(normal, -normal, dot(normal, position) > 0.0);
 }
 
 fn position_of(pixel: Pixel) -> vec3f {
@@ -30,17 +29,17 @@ fn step_of_place(pixel: Pixel, step: vec4f) -> vec4f {
 }
 
 // The share of the light that the surface at `position`, in metres relative to the eye with world
-// axes, sees. `normal` is its geometric normal, of any length, and is turned to the eye.
+// axes, sees. `normal` is its geometric normal, of any length but 0, and is turned to the eye.
 fn visibility(position: vec3f, normal: vec3f) -> f32 {
-    return share_at(receiver(position, normal, true));
+    return share_at(receiver(position, Surface(turned_to_eye(position, normal), true)));
 }
 
 // The same for a surface that casts no shadow, such as a pane: light comes through to its back.
 fn visibility_of_pane(position: vec3f, normal: vec3f) -> f32 {
-    return share_at(receiver(position, normal, false));
+    return share_at(receiver(position, Surface(turned_to_eye(position, normal), false)));
 }
 
-// The same for what has no surface, such as smoke.
+// The same for what has no surface, such as smoke: as for a small sheet that faces the light.
 fn visibility_in_air(position: vec3f) -> f32 {
-    return share_at(receiver(position, vec3f(0.0), false));
+    return share_at(receiver(position, Surface(-(map.from_light * vec4f(position, 1.0)).xyz, false)));
 }
