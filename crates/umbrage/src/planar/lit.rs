@@ -18,6 +18,8 @@ pub(crate) struct LitPlane {
     /// Around what is seen of the receivers, along `right` and `up`, metres.
     pub low: DVec2,
     pub high: DVec2,
+    /// Some of its receivers reach behind the eye.
+    pub is_long: bool,
     /// The light's centre over its height: the way back along a ray for each metre of height. It
     /// is a point where `inverse_height` is not 0, else a direction.
     pub light: DVec3,
@@ -52,7 +54,7 @@ impl LitPlane {
     pub fn of(seen: &SeenPlane, origin: DVec3, light: DVec4, least: f64) -> Option<Self> {
         let height = seen.plane.dot(light);
         let is_above = if light.w == 0.0 { height.abs() > LEAST_SINE } else { height.abs() > least };
-        let SeenPlane { plane, right, up, low, high, .. } = *seen;
+        let SeenPlane { plane, right, up, low, high, is_long, .. } = *seen;
         is_above.then(|| Self {
             origin,
             plane: plane * height.signum(),
@@ -60,6 +62,7 @@ impl LitPlane {
             up,
             low,
             high,
+            is_long,
             light: light.truncate() / height.abs(),
             inverse_height: light.w / height.abs(),
             least,
@@ -173,7 +176,16 @@ mod tests {
 
     fn floor() -> SeenPlane {
         let (low, high) = (DVec2::splat(-5.0), DVec2::splat(5.0));
-        SeenPlane { plane: DVec4::Y, right: DVec3::X, up: DVec3::NEG_Z, low, high, pixels: 1.0, rank: (0, 0) }
+        SeenPlane {
+            plane: DVec4::Y,
+            right: DVec3::X,
+            up: DVec3::NEG_Z,
+            low,
+            high,
+            is_long: false,
+            pixels: 1.0,
+            rank: (0, 0),
+        }
     }
 
     fn lit(light: DVec4) -> Option<LitPlane> {

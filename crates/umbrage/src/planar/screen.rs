@@ -31,6 +31,12 @@ impl Screen {
         }
     }
 
+    /// True where points are before the near plane, all of them.
+    pub fn has_before(&self, points: &[DVec3]) -> bool {
+        let nearest = 2.0 * self.nearest;
+        points.iter().all(|p| (self.clip_from_origin * p.extend(1.0)).w >= nearest)
+    }
+
     /// Pixels in a clipped polygon.
     pub fn area(&self, polygon: &[Corner]) -> f64 {
         let ndc = |i: usize| {

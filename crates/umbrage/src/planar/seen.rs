@@ -16,6 +16,8 @@ pub(crate) struct SeenPlane {
     /// Around what is seen of its receivers, along `right` and `up`, metres.
     pub low: DVec2,
     pub high: DVec2,
+    /// Some of its receivers reach behind the eye.
+    pub is_long: bool,
     /// How many pixels its receivers would cover, were nothing before them.
     pub pixels: f64,
     /// Tells planes apart in the order in which their receivers came.
@@ -85,7 +87,8 @@ impl SeenPlanes {
             let (low, high) = polygon.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), around);
             let pixels = screen.area(polygon) * plane.share();
             if polygon.len() > 2 && pixels >= least {
-                self.list.push(SeenPlane { plane: equation, right, up, low, high, pixels, rank: plane.rank });
+                let is_long = !screen.has_before(&plane.corners());
+                self.list.push(SeenPlane { plane: equation, right, up, low, high, is_long, pixels, rank: plane.rank });
             }
         }
     }
@@ -118,6 +121,7 @@ impl SeenPlane {
                 (self.low, self.high) = (self.low.min(at), self.high.max(at));
             }
             self.pixels += other.pixels;
+            self.is_long |= other.is_long;
         }
         coincides
     }

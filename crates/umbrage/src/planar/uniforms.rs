@@ -60,9 +60,10 @@ shader_struct! {
     }
 }
 
-/// Where a rasteriser finds depth from corners behind the eye, it shifts long grounds by so many
-/// times as much as what is measured with short ones.
-const SPREAD: f64 = 16.0;
+/// A rasteriser shifts surfaces by so many times as much as is measured at most; and by so many
+/// times where it finds depth from corners behind the eye.
+const SPREAD: f64 = 2.0;
+const LONG_SPREAD: f64 = 16.0;
 
 /// A step of single precision, as `position_rounding` in `receivers.wgsl` has it.
 const ROUNDING: f32 = 1.2e-7;
@@ -111,7 +112,8 @@ impl FoundPlane {
         };
         let across = eye_from_ndc.transpose() * equation;
         let shifted = [0, 1].map(|i| equation.truncate().dot(eye_from_ndc.col(i).truncate()).abs());
-        let snapped = DVec2::from(shifted) * 2.0 * SPREAD * f64::from(view.receivers.snapping) / size;
+        let spread = if plane.is_long { LONG_SPREAD } else { SPREAD };
+        let snapped = DVec2::from(shifted) * 2.0 * spread * f64::from(view.receivers.snapping) / size;
         Self {
             across: across.as_vec4().to_array(),
             normal: equation.truncate().as_vec3().to_array(),

@@ -45,6 +45,14 @@ fn mirrored_open_and_cutting_casters_have_their_whole_shadow() {
     }
 }
 
+/// Where pixels are larger than what planes are apart, and a rasteriser shifts surfaces by parts of
+/// pixels, each pixel still belongs to its own plane: the wall is of overlapping boards.
+#[test]
+fn boards_close_together_do_not_shadow_each_other() {
+    let s = against_truth(&gpu(), &crate::common::scene("picket-fence", 1.0), 0, "projective", "", (120, 90), 1);
+    assert!(s.interior_pct >= Some(99.9), "{s:?}");
+}
+
 #[test]
 fn lights_in_and_behind_planes_and_scenes_without_planes_leave_all_lit() {
     let gpu = gpu();
