@@ -4,6 +4,7 @@ use crate::convert;
 use crate::extract::Changes;
 use crate::light::{Lights, UmbrageLightInWorld};
 use crate::mirror::Mirror;
+use crate::normals::{NormalTarget, Normals};
 use crate::shade::{Shade, Textures};
 use bevy::core_pipeline::prepass::ViewPrepassTextures;
 use bevy::prelude::*;
@@ -45,14 +46,16 @@ impl FromWorld for Host {
         let gpu = Gpu::new(device, queue);
         // A new device knows nothing of what the last one was sent.
         world.resource_mut::<Changes>().send_again();
-        let (shade, mirror, troubles) = (Shade::new(&gpu), Mirror::default(), HashSet::new());
+        let (normals, shade) = (Normals::new(&gpu), Shade::new(&gpu));
+        let (mirror, troubles) = (Mirror::default(), HashSet::new());
         let (views, techniques) = (HashMap::new(), HashMap::new());
-        Self(Mutex::new(State { gpu, shade, mirror, views, techniques, troubles }))
+        Self(Mutex::new(State { gpu, normals, shade, mirror, views, techniques, troubles }))
     }
 }
 
 struct State {
     gpu: Gpu,
+    normals: Normals,
     shade: Shade,
     mirror: Mirror,
     views: HashMap<Entity, Seen>,
@@ -70,6 +73,7 @@ struct Seen {
 
 struct Bound {
     views: [wgpu::TextureView; 3],
+    normals: NormalTarget,
     receivers: Receivers,
     group: wgpu::BindGroup,
 }
@@ -143,7 +147,7 @@ impl State {
         lights: &[UmbrageLightInWorld],
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<Vec<PassTime>, Error> {
-        let Self { gpu, shade, mirror, views, techniques, .. } = self;
+        let Self { gpu, normals, shade, mirror, views, techniques, .. } = self;
         let size = (textures.size.width, textures.size.height);
         let seen = match views.entry(picture.entity) {
             Entry::Occupied(old) if old.get().visibility.size == size => old.into_mut(),
@@ -154,10 +158,11 @@ impl State {
             }
         };
         let Seen { recorder, visibility, textures: known } = seen;
-        let Some(bound) = bound(known, gpu, shade, visibility, textures)? else { return Ok(Vec::new()) };
+        let Some(bound) = bound(known, gpu, (normals, shade), visibility, textures)? else { return Ok(Vec::new()) };
         let times = recorder.times();
         let mut passes = recorder.begin(encoder);
         mirror.record(&mut passes);
+        normals.record(&mut passes, &picture.camera, &bound.normals);
         let mut troubles = Vec::new();
         if let Some(casters) = mirror.casters() {
             for (number, light) in lights.iter().enumerate() {
@@ -201,7 +206,7 @@ impl State {
 fn bound<'a>(
     known: &'a mut Vec<Bound>,
     gpu: &Gpu,
-    shade: &Shade,
+    (normals, shade): (&Normals, &Shade),
     visibility: &VisibilityTarget,
     textures: &ViewPrepassTextures,
 ) -> Result<Option<&'a Bound>, Error> {
@@ -217,10 +222,11 @@ fn bound<'a>(
     if known.len() > 3 {
         known.clear();
     }
-    let receivers = Receivers::new(gpu, depth, None, visibility.size)?;
     let [depth, deferred, pass] = &views;
+    let normals = normals.target(gpu, depth, deferred, visibility.size)?;
+    let receivers = Receivers::new(gpu, depth, Some(&normals.view), visibility.size)?;
     let group = shade.bind(gpu, &Textures { depth, deferred, pass, visibility: &visibility.view });
-    known.push(Bound { views, receivers, group });
+    known.push(Bound { views, normals, receivers, group });
     Ok(known.last())
 }
 

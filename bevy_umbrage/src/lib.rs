@@ -30,6 +30,7 @@ mod extract;
 mod frame;
 mod light;
 mod mirror;
+mod normals;
 mod shade;
 
 use bevy::camera::Hdr;

@@ -1,9 +1,10 @@
 //! The full-screen pass that adds what a light gives off.
 
 use crate::light::Emission;
+use crate::normals::{eye_from_ndc, ndc_from_pixel, to_eye};
 use bevy::prelude::Vec3;
 use std::collections::HashMap;
-use umbrage::core::glam::{DVec3, Vec4};
+use umbrage::core::glam::DVec3;
 use umbrage::core::{Light, LightShape};
 use umbrage::fullscreen::{FLOATS, Fullscreen, UNIFORM, additive, bind, layout, texture};
 use umbrage::{Gpu, Passes, View};
@@ -25,13 +26,11 @@ struct Emitter {
 }
 
 impl Emitter {
-    fn of(view: &View<'_>, emission: &Emission, exposure: f32, (width, height): (u32, u32)) -> Self {
+    fn of(view: &View<'_>, emission: &Emission, exposure: f32) -> Self {
         let (position, axis, is_directional) = places(view.light, view.camera.eye);
         let Emission { color, radius, range, cone } = *emission;
-        let is_orthographic = view.camera.clip_from_view.w_axis.w == 1.0;
-        let to_eye = if is_orthographic { (-view.camera.forward()).as_vec3().extend(1.0) } else { Vec4::ZERO };
         Self {
-            eye_from_ndc: view.clip_from_eye().inverse().as_mat4().to_cols_array_2d(),
+            eye_from_ndc: eye_from_ndc(&view.camera),
             position: position.as_vec3().to_array(),
             radius,
             color: Vec3::to_array(&(color * exposure)),
@@ -39,8 +38,8 @@ impl Emitter {
             axis: axis.as_vec3().to_array(),
             is_directional: is_directional.into(),
             cone,
-            ndc_from_pixel: [2.0 / width as f32, -2.0 / height as f32],
-            to_eye: to_eye.to_array(),
+            ndc_from_pixel: ndc_from_pixel(view.receivers.size),
+            to_eye: to_eye(&view.camera),
         }
     }
 }
@@ -75,7 +74,8 @@ pub struct Textures<'a> {
 
 impl Shade {
     pub fn new(gpu: &Gpu) -> Self {
-        let source = wgpu::ShaderSource::Wgsl(include_str!("shade.wgsl").into());
+        let source =
+            wgpu::ShaderSource::Wgsl([include_str!("shade.wgsl"), include_str!("direction.wgsl")].concat().into());
         let module =
             gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some("umbrage shade"), source });
         let uint = wgpu::TextureSampleType::Uint;
@@ -101,7 +101,7 @@ impl Shade {
         textures: &wgpu::BindGroup,
         target: wgpu::RenderPassColorAttachment<'_>,
     ) {
-        let emitter = Emitter::of(view, emission, exposure, view.receivers.size);
+        let emitter = Emitter::of(view, emission, exposure);
         passes.upload(&self.emitter, bytemuck::bytes_of(&emitter));
         let Self { module, layout, pipelines, .. } = self;
         let format = target.view.texture().format();

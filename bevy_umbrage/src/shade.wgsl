@@ -95,14 +95,6 @@ fn unpack(packed: vec4u, v: vec3f) -> Surface {
     );
 }
 
-/// From the octahedral map of directions.
-fn direction(folded: vec2f) -> vec3f {
-    let f = folded * 2.0 - 1.0;
-    let z = 1.0 - abs(f.x) - abs(f.y);
-    let t = saturate(-z);
-    return normalize(vec3f(f + select(vec2f(t), vec2f(-t), f >= vec2f(0.0)), z));
-}
-
 fn squared_roughness(perceptual: f32) -> f32 {
     let clamped = clamp(perceptual, 0.089, 1.0);
     return clamped * clamped;
