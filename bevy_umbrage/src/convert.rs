@@ -146,3 +146,41 @@ fn sampling(sampler: &ImageSampler) -> Sampling {
     };
     Sampling { wrap: [wrap(of.address_mode_u), wrap(of.address_mode_v)], filter }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bevy::asset::RenderAssetUsages;
+
+    fn bevys(topology: PrimitiveTopology, indices: Option<Indices>) -> Mesh {
+        let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 2.0, 0.0]];
+        let mesh = Mesh::new(topology, RenderAssetUsages::default());
+        let mut mesh = mesh.with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, corners);
+        indices.into_iter().for_each(|indices| mesh.insert_indices(indices));
+        mesh
+    }
+
+    #[test]
+    fn triangles_of_strips_face_one_way() {
+        let strip = mesh(&bevys(PrimitiveTopology::TriangleStrip, None)).expect("triangles");
+        assert_eq!(strip.indices, [0, 1, 2, 2, 1, 3, 2, 3, 4]);
+        assert!(strip.normals.iter().all(|n| *n == glam::Vec3::Z), "{:?}", strip.normals);
+    }
+
+    #[test]
+    fn what_has_no_triangles_is_no_mesh() {
+        let list = |indices: Vec<u16>| mesh(&bevys(PrimitiveTopology::TriangleList, Some(Indices::U16(indices))));
+        assert_eq!(list(vec![0, 1, 2]).map(|mesh| mesh.triangle_count()), Some(1));
+        assert_eq!(list(vec![0, 1, 5]), None, "an index beyond the vertices");
+        assert_eq!(mesh(&bevys(PrimitiveTopology::LineList, None)), None);
+        assert_eq!(mesh(&Mesh::new(PrimitiveTopology::TriangleList, RenderAssetUsages::default())), None);
+    }
+
+    #[test]
+    fn surfaces_are_cut_out_as_in_bevys_shadows() {
+        let cutoff = |alpha_mode| material(&StandardMaterial { alpha_mode, ..Default::default() }).alpha_cutoff;
+        assert_eq!(cutoff(AlphaMode::Opaque), None);
+        assert_eq!(cutoff(AlphaMode::Mask(0.3)), Some(0.3));
+        assert_eq!(cutoff(AlphaMode::Blend), Some(BLENDED_CUTOFF));
+    }
+}

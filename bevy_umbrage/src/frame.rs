@@ -47,7 +47,7 @@ impl FromWorld for Host {
         // A new device knows nothing of what the last one was sent.
         world.resource_mut::<Changes>().send_again();
         let (normals, shade) = (Normals::new(&gpu), Shade::new(&gpu));
-        let (mirror, troubles) = (Mirror::default(), HashSet::new());
+        let (mirror, troubles) = (None, HashSet::new());
         let (views, techniques) = (HashMap::new(), HashMap::new());
         Self(Mutex::new(State { gpu, normals, shade, mirror, views, techniques, troubles }))
     }
@@ -57,7 +57,8 @@ struct State {
     gpu: Gpu,
     normals: Normals,
     shade: Shade,
-    mirror: Mirror,
+    /// `None` until there is something, and where there can't be.
+    mirror: Option<Mirror>,
     views: HashMap<Entity, Seen>,
     techniques: HashMap<(Entity, Entity), Made>,
     troubles: HashSet<String>,
@@ -91,9 +92,14 @@ pub fn prepare(mut host: ResMut<Host>, mut changes: ResMut<Changes>, lights: Res
     if changes.is_empty() {
         return;
     }
-    if let Err(error) = state.mirror.follow(&state.gpu, changes.take()) {
-        state.report(format!("umbrage has no casters: {error}"));
+    if state.mirror.is_none() {
+        match Mirror::new(&state.gpu) {
+            Ok(mirror) => state.mirror = Some(mirror),
+            Err(error) => return state.report(format!("umbrage has no casters: {error}")),
+        }
     }
+    let errors = state.mirror.as_mut().map_or(Vec::new(), |mirror| mirror.follow(changes.take()));
+    errors.iter().for_each(|error| state.report(format!("umbrage does not see a change: {error}")));
 }
 
 type Of<'a> =
@@ -159,33 +165,32 @@ impl State {
         };
         let Seen { recorder, visibility, textures: known } = seen;
         let Some(bound) = bound(known, gpu, (normals, shade), visibility, textures)? else { return Ok(Vec::new()) };
+        let Some(mirror) = mirror else { return Ok(Vec::new()) };
         let times = recorder.times();
         let mut passes = recorder.begin(encoder);
-        mirror.record(&mut passes);
+        mirror.record(&mut passes)?;
         normals.record(&mut passes, &picture.camera, &bound.normals);
         let mut troubles = Vec::new();
-        if let Some(casters) = mirror.casters() {
-            for (number, light) in lights.iter().enumerate() {
-                passes.owner(Owner::Light(number));
-                let view = View {
-                    camera: picture.camera,
-                    receivers: &bound.receivers,
-                    casters,
-                    light: &light.light,
-                    textures: &[],
-                };
-                let key = (picture.entity, light.entity);
-                let shadows = technique(techniques, gpu, key, &light.technique)
-                    .and_then(|technique| technique.prepare(gpu, &view)?.record(&mut passes, visibility));
-                match shadows {
-                    Ok(()) => shade.record(
-                        (gpu, &mut passes),
-                        (&view, &light.emission, picture.exposure),
-                        &bound.group,
-                        picture.target.get_color_attachment(),
-                    ),
-                    Err(error) => troubles.push(format!("umbrage leaves out light {}: {error}", light.entity)),
-                }
+        for (number, light) in lights.iter().enumerate() {
+            passes.owner(Owner::Light(number));
+            let view = View {
+                camera: picture.camera,
+                receivers: &bound.receivers,
+                casters: mirror.casters(),
+                light: &light.light,
+                textures: &[],
+            };
+            let key = (picture.entity, light.entity);
+            let shadows = technique(techniques, gpu, key, &light.technique)
+                .and_then(|technique| technique.prepare(gpu, &view)?.record(&mut passes, visibility));
+            match shadows {
+                Ok(()) => shade.record(
+                    (gpu, &mut passes),
+                    (&view, &light.emission, picture.exposure),
+                    &bound.group,
+                    picture.target.get_color_attachment(),
+                ),
+                Err(error) => troubles.push(format!("umbrage leaves out light {}: {error}", light.entity)),
             }
         }
         passes.finish();

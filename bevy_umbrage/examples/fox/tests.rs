@@ -92,11 +92,12 @@ fn shadows_follow_the_world() {
 
 type Change = fn(&mut World);
 
-const CHANGES: [(Change, &str); 8] = [
+const CHANGES: [(Change, &str); 9] = [
     (|_| (), "nothing"),
     (move_block, "the block is elsewhere"),
     (|world| drop(named(world, "globe").insert(NotShadowCaster)), "the globe casts nothing"),
     (|world| drop(named(world, "globe").remove::<NotShadowCaster>()), "it does again"),
+    (swell_globe, "the globe has another mesh"),
     (|world| named(world, "column").despawn(), "a column is gone"),
     (close_lattice, "the lattice lets no light through"),
     (|world| drop(named(world, "fox").insert(Visibility::Hidden)), "the fox is hidden"),
@@ -115,6 +116,12 @@ fn move_block(world: &mut World) {
     }
 }
 
+fn swell_globe(world: &mut World) {
+    let mesh = named(world, "globe").get::<Mesh3d>().expect("a mesh").0.clone();
+    let mut meshes = world.resource_mut::<Assets<Mesh>>();
+    *meshes.get_mut(&mesh).expect("a mesh") = Sphere::new(0.5).into();
+}
+
 fn close_lattice(world: &mut World) {
     let material = named(world, "lattice").get::<MeshMaterial3d<StandardMaterial>>().expect("a material").0.clone();
     let mut materials = world.resource_mut::<Assets<StandardMaterial>>();
@@ -131,7 +138,7 @@ fn a_walking_figure_has_the_shadow_of_its_moment() {
         let error = truth::error(&picture, &truth);
         assert!(error < 0.012, "moment {moment}: {error}");
         pictures.push(truth);
-        stage.walk(12);
+        stage.walk(25);
     }
     let moved = truth::error(&pictures[0], &pictures[1]);
     assert!(moved > 0.03, "the figure walks: {moved}");

@@ -28,8 +28,9 @@ impl Picture {
         Self { size: (width, height), pixels: rows.map(pixel).collect() }
     }
 
+    /// As a screen shows it, which has nothing over 1.
     pub fn luminance(&self) -> Vec<f32> {
-        self.pixels.iter().map(|p| p.dot(Vec3::new(0.2126, 0.7152, 0.0722))).collect()
+        self.pixels.iter().map(|p| p.min(Vec3::ONE).dot(Vec3::new(0.2126, 0.7152, 0.0722))).collect()
     }
 
     /// As PNG, what is over 1 being white.
