@@ -30,7 +30,7 @@ impl Mirror {
         Ok(Self { casters, plain, meshes, materials, placed })
     }
 
-    /// Takes over what has changed; what can't be is left as it was, and comes back with its reason.
+    /// Takes over what has changed. What can't be is left as it was; its reason comes back.
     pub fn follow(&mut self, changes: Changes) -> Vec<Error> {
         let mut results = Vec::new();
         results.extend(changes.removed.iter().map(|entity| self.remove(*entity)));

@@ -71,7 +71,7 @@ pub struct Wanted {
 
 impl Default for Wanted {
     fn default() -> Self {
-        let (sun, lamp) = ("cascaded:filter=pcss".into(), "pcss".into());
+        let (sun, lamp) = ("cascaded:kernel=disc:radius-m=0.025".into(), "pcss:faces=midpoint".into());
         Self { size: (640, 480), model: None, sun, lamp, format: TextureFormat::Rgba16Float }
     }
 }
