@@ -31,9 +31,24 @@ pub fn report(error: &anyhow::Error) -> ExitCode {
     if error.chain().any(gone) {
         return ExitCode::SUCCESS;
     }
-    let text = format!("{error:#}");
+    let text = format!("{error:#}{}", remedy(error).unwrap_or_default());
     say::error(&format!("error: {}", text.split_whitespace().collect::<Vec<_>>().join(" ")));
     ExitCode::from(FAILED)
+}
+
+/// What the command can do about an error of the library, which does not know the command.
+fn remedy(error: &anyhow::Error) -> Option<&'static str> {
+    use umbrage::Error;
+    let of_library = error.chain().find_map(|e| match e.downcast_ref::<umbrage_report::Error>() {
+        Some(umbrage_report::Error::Gpu(error)) => Some(error),
+        _ => e.downcast_ref::<Error>(),
+    })?;
+    match of_library {
+        Error::NoAdapter { .. } => Some(", or run `cargo xtask setup`"),
+        Error::NoDevice { .. } | Error::NotCounted => Some(" with --adapter"),
+        Error::Unknown { nearest: None, .. } => Some("; `umbrage list` shows what there is"),
+        _ => None,
+    }
 }
 
 /// The message and its tips, without the usage that follows.

@@ -2,10 +2,11 @@
 
 /// An error of the GPU library. Its text is one line that says what to do.
 #[derive(Clone, Debug, thiserror::Error, PartialEq)]
+#[non_exhaustive]
 pub enum Error {
     /// No adapter fits.
     #[error(
-        "no usable graphics adapter{}; install a Vulkan driver (Debian, Ubuntu: apt-get install mesa-vulkan-drivers), or run `cargo xtask setup`",
+        "no usable graphics adapter{}; install a Vulkan driver (Debian, Ubuntu: apt-get install mesa-vulkan-drivers)",
         if .found.is_empty() { String::new() } else { format!(" ({found})") }
     )]
     NoAdapter {
@@ -13,7 +14,7 @@ pub enum Error {
         found: String,
     },
     /// The driver refused a device.
-    #[error("the adapter {adapter} gives no device: {reason}; choose another with --adapter")]
+    #[error("the adapter {adapter} gives no device: {reason}; choose another one")]
     NoDevice {
         /// Adapter name.
         adapter: String,
@@ -39,7 +40,7 @@ pub enum Error {
         by: u64,
     },
     /// Fragments were to be counted, and the device only tells whether there are any.
-    #[error("this adapter counts no fragments, it only tells whether there are any; choose another with --adapter")]
+    #[error("this adapter counts no fragments, it only tells whether there are any; choose another one")]
     NotCounted,
     /// Name not in the registry, with the nearest one.
     #[error("unknown {what} `{name}`{}", suggestion(.nearest))]
@@ -107,7 +108,7 @@ pub enum Error {
 }
 
 fn suggestion(nearest: &Option<String>) -> String {
-    nearest.as_ref().map_or("; `umbrage list` shows what there is".into(), |n| format!("; did you mean `{n}`?"))
+    nearest.as_ref().map_or_else(String::new, |n| format!("; did you mean `{n}`?"))
 }
 
 /// The name among `known` nearest to `name`, where one is near enough to be meant: for "did you

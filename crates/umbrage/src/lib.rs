@@ -96,6 +96,8 @@ pub use umbrage_core as core;
 pub use view::View;
 pub use visibility::VisibilityTarget;
 pub use warm_up::warm_up;
+/// The version of wgpu that hosts have to use.
+pub use wgpu;
 
 /// WGSL that passes of a host may share with the library.
 pub mod wgsl {

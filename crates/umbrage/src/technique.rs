@@ -176,6 +176,7 @@ pub struct DebugView<'a> {
 
 /// What kind of thing a technique is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Family {
     /// No shadow at all, to compare with.
     Control,

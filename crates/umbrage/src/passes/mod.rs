@@ -17,6 +17,7 @@ pub use fragments::{Pass, PassFragments};
 use kept::Frame;
 pub use kept::Kept;
 use stamps::Stamps;
+use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
 use timer::Timer;
@@ -24,11 +25,20 @@ use wgpu::util::StagingBelt;
 
 /// Whose a pass is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Owner {
     /// A part of the host, by its name: `gbuffer`, `shading`.
     Host(&'static str),
     /// The technique of the light of this number.
     Light(usize),
+}
+
+/// Whose passes are until somebody is named.
+const NOBODY: Owner = Owner::Host("");
+
+/// What debuggers show of a pass.
+fn labelled(owner: Owner, pass: &str) -> Cow<'_, str> {
+    if owner == NOBODY { pass.into() } else { format!("{owner}: {pass}").into() }
 }
 
 impl fmt::Display for Owner {
@@ -99,7 +109,7 @@ impl Recorder {
         let (timer, counter) = (self.timer.as_mut(), self.counter.as_mut());
         let frame = self.stamps.begin();
         let (gpu, belt, stamps) = (&self.gpu, &mut self.belt, &self.stamps);
-        Passes { encoder, gpu, belt, stamps, frame, timer, counter, owner: Owner::Host("") }
+        Passes { encoder, gpu, belt, stamps, frame, timer, counter, owner: NOBODY }
     }
 
     /// GPU times of the newest frame whose results have arrived; empty without timestamps. Never
@@ -146,7 +156,8 @@ impl Passes<'_> {
         own.map(|t| t.time_ms).reduce(|sum, ms| sum + ms)
     }
 
-    /// Names whom the following passes belong to in [`PassTime::owner`].
+    /// Names whom the following passes belong to in [`PassTime::owner`] and in their
+    /// labels. (Not as debug groups: some versions of Mesa's software driver crash on these.)
     pub fn owner(&mut self, owner: Owner) {
         self.owner = owner;
     }
@@ -195,9 +206,10 @@ impl Passes<'_> {
         let owner = self.owner;
         let counted =
             || Counted { owner, pass: label.into(), attachment_bytes: touched(color, depth_stencil.as_ref()) };
+        let full_label = labelled(self.owner, label);
         let query = self.counter.as_mut().and_then(|c| c.queries.slot(counted()));
         let pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(label),
+            label: Some(&full_label),
             color_attachments: color,
             depth_stencil_attachment: depth_stencil,
             timestamp_writes,
@@ -215,7 +227,8 @@ impl Passes<'_> {
             beginning_of_pass_write_index: Some(i),
             end_of_pass_write_index: Some(i + 1),
         });
-        self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes })
+        let full_label = labelled(self.owner, label);
+        self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(&full_label), timestamp_writes })
     }
 
     /// Ends the frame: times are on their way, upload memory comes back when the GPU is done with
@@ -236,5 +249,17 @@ impl Drop for Passes<'_> {
         stamp.read_on_submit(self.encoder);
         self.belt.finish_and_recall_on_submit(self.encoder);
         self.gpu.unsettle();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn debuggers_show_whose_a_pass_is() {
+        assert_eq!(labelled(Owner::Light(2), "map"), "light 2: map");
+        assert_eq!(labelled(Owner::Host("shading"), "add"), "shading: add");
+        assert_eq!(labelled(NOBODY, "map"), "map");
     }
 }

@@ -12,6 +12,7 @@ pub struct Module {
 
 /// Why a shader can't be put together.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Unresolved {
     /// No module has this name.
     #[error("`{by}` needs `{need}`, and no module is called that")]
