@@ -8,6 +8,7 @@ mod demo;
 mod docs;
 mod drivers;
 mod fuzz;
+mod package;
 mod portable;
 mod setup;
 mod shell;
@@ -27,6 +28,7 @@ cargo xtask COMMAND
   test    run the whole test suite
   portable
           check that the library compiles for browsers, and with the oldest toolchain that is promised
+  package check that a registry would take the library's crates
   browser compile every shader in Chromium, whose compiler of WGSL is another one than wgpu's, and draw a picture with
           every technique there
   soak MINUTES
@@ -68,6 +70,7 @@ fn run() -> Result<()> {
         ["demo"] => demo::run(),
         ["test", rest @ ..] => test::run(rest),
         ["portable"] => portable::run(),
+        ["package"] => package::run(),
         ["browser"] => browser::run(),
         ["soak", minutes] => soak::run(minutes),
         ["validation"] => validation::run(),
