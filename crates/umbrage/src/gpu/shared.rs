@@ -177,11 +177,17 @@ impl Gpu {
     /// its bytes must come from the same driver, for which the host can vouch alone. Only the first
     /// one counts; pipelines that are there already are not in it.
     ///
-    /// ```no_run
-    /// # fn main() -> Result<(), umbrage::Error> {
-    /// # let gpu = umbrage::Gpu::request(None)?;
+    /// ```
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// use wgpu::Features;
     /// # let stored: Option<Vec<u8>> = None;
-    /// if gpu.has(wgpu::Features::PIPELINE_CACHE) {
+    /// # let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    /// # let adapter = pollster::block_on(instance.request_adapter(&Default::default()))?;
+    /// # let required_features = adapter.features() & Features::PIPELINE_CACHE;
+    /// # let descriptor = wgpu::DeviceDescriptor { required_features, ..Default::default() };
+    /// # let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))?;
+    /// let gpu = umbrage::Gpu::new(device, queue);
+    /// if gpu.has(Features::PIPELINE_CACHE) {
     ///     let data = stored.as_deref();
     ///     let descriptor = wgpu::PipelineCacheDescriptor { label: None, data, fallback: true };
     ///     // The bytes are those that the same adapter and driver gave before.
@@ -189,6 +195,7 @@ impl Gpu {
     /// }
     /// let technique = umbrage::parse("pcf")?.make(&gpu)?;
     /// let to_store: Option<Vec<u8>> = gpu.pipeline_cache_data();
+    /// # assert_eq!(to_store.is_some(), gpu.has(Features::PIPELINE_CACHE));
     /// # Ok(()) }
     /// ```
     pub fn use_pipeline_cache(&self, cache: wgpu::PipelineCache) {

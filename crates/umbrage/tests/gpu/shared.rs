@@ -125,3 +125,20 @@ fn points_of_a_light_share_their_pipelines() {
     assert_eq!(few, many);
     assert!(few.pipelines > 2, "{few:?}");
 }
+
+/// What is kept for techniques to come goes with the device's last `Gpu`.
+#[test]
+fn nothing_outlives_the_last_gpu() {
+    let gpu = gpu();
+    let device = gpu.device.clone();
+    let technique = umbrage::parse("pcf:size=64").unwrap().make(&gpu).unwrap();
+    let scene = scene("contact", 0.3);
+    let mut renderer = Renderer::new(&gpu, &scene, 16, 12, vec![LightPass { light: 0, technique }]).unwrap();
+    renderer.frame(&scene.camera).unwrap();
+    gpu.wait().unwrap();
+    assert!(Made::on(&gpu).pipelines > 0);
+    drop((renderer, gpu));
+    device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
+    let left = device.get_internal_counters().hal;
+    assert_eq!((left.render_pipelines.read(), left.compute_pipelines.read(), left.shader_modules.read()), (0, 0, 0));
+}
