@@ -14,7 +14,7 @@ use umbrage::Gpu;
 const SIZE: (u32, u32) = (480, 270);
 
 /// Frames that are timed.
-const FRAMES: u32 = 10;
+const FRAMES: u32 = 20;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let gpu = Gpu::request(None)?;

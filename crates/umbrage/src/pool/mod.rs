@@ -111,7 +111,7 @@ impl MapPool {
         }
         let sized = lights.iter_mut().zip(&mut self.lights).zip(&self.sizes);
         for ((light, member), size) in sized {
-            if member.size != *size || (member.is_new && *size > 0) {
+            if member.size != *size || member.is_new {
                 member.resize(gpu, light, *size)?;
             }
         }
@@ -173,12 +173,9 @@ impl Member {
 
     fn resize(&mut self, gpu: &Gpu, light: &mut PooledLight<'_>, size: u32) -> Result<(), Error> {
         (self.size, self.is_new) = (size, false);
-        if size == 0 {
-            *light.technique = light.settings.make(gpu)?;
-            return Ok(());
-        }
-        let settings = sized(light.settings, size)?;
-        if !light.technique.set(gpu, &settings)? {
+        // Whoever prepares a light all the same that lights nothing gets the smallest maps.
+        let settings = sized(light.settings, if size == 0 { TRIED[0] } else { size })?;
+        if size == 0 || !light.technique.set(gpu, &settings)? {
             *light.technique = settings.make(gpu)?;
         }
         Ok(())
