@@ -3,7 +3,7 @@
 
 use super::Result;
 use super::things::{self, Corner};
-use umbrage::core::glam::{DMat3, DMat4, DVec3};
+use umbrage::core::glam::{DMat4, DVec3};
 use umbrage::core::{Camera, Light};
 use wgpu::util::DeviceExt;
 
@@ -186,7 +186,7 @@ fn floats(corner: &Corner, eye: DVec3) -> [f32; 11] {
 /// `Frame` of the shader.
 fn frame((width, height): (u32, u32), camera: &Camera, lights: &[Light]) -> Vec<f32> {
     let view = camera.view(width, height);
-    let rotation = DMat4::from_mat3(DMat3::from(view.view_from_world.matrix3));
+    let rotation = DMat4::from_mat3(view.view_from_world.matrix3);
     let clip_from_eye = (view.clip_from_view * rotation).as_mat4();
     let colors = [[1.0, 0.92, 0.8, 0.0], [1.3, 0.8, 0.4, 0.0]];
     let lights = lights.iter().zip(colors).flat_map(|(light, color)| {

@@ -2,40 +2,8 @@
 //! since their receivers are given relative to the eye.
 
 use super::pass::{BINDINGS, Lookup, LookupInput, all_layers};
-use super::uniforms::MapLookup;
+use crate::gpu::Gpu;
 use crate::inline::{Binding, Lent, LentLookup, Resource};
-use crate::{gpu::Gpu, passes::Passes};
-
-/// What shaders of hosts read.
-pub(super) struct InEye {
-    pub uniforms: wgpu::Buffer,
-    pub data: MapLookup,
-    /// Somebody reads it.
-    is_lent: bool,
-    /// The maps and the view of them that was lent last.
-    maps: Option<(wgpu::Texture, wgpu::TextureView)>,
-    /// What was lent last: without light there is nothing new to lend.
-    last: Lent,
-}
-
-impl InEye {
-    pub fn new(gpu: &Gpu) -> Self {
-        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
-        Self {
-            uniforms: gpu.buffer("inline map lookup", &[MapLookup::default()], usage),
-            data: MapLookup::default(),
-            is_lent: false,
-            maps: None,
-            last: Lent { lookup: None },
-        }
-    }
-
-    pub fn upload(&self, passes: &mut Passes<'_>) {
-        if self.is_lent {
-            passes.upload(&self.uniforms, bytemuck::bytes_of(&self.data));
-        }
-    }
-}
 
 impl LookupInput {
     /// From the next frame on, what shaders of hosts read is kept up to date. Returns the uniforms.

@@ -1,6 +1,7 @@
 //! From maps to visibility: the uniforms and the full-screen pass.
 
 mod extent;
+mod in_eye;
 mod layer;
 mod lend;
 mod pass;

@@ -1,7 +1,7 @@
 //! The full-screen pass that compares receivers with the maps.
 
 use super::extent::is_round;
-use super::lend::InEye;
+use super::in_eye::InEye;
 use super::phases::{OpenPixels, Phase};
 use super::pictures::Pictures;
 use super::uniforms::{MapLookup, Space};

@@ -1,7 +1,7 @@
 //! A host that shades forward: it draws depth and normals, then the same triangles once more with
 //! the look-ups of lights in its own shader.
 
-use umbrage::core::glam::{DMat3, DMat4, Vec3};
+use umbrage::core::glam::{DMat4, Vec3};
 use umbrage::core::{Camera, Image, Light, Scene};
 use umbrage::fullscreen::{attachment, target_texture};
 use umbrage::{Casters, Gpu, Inline, Lent, Passes, Receivers, Recorder, Technique, View, VisibilityTarget, read};
@@ -124,8 +124,7 @@ impl Host {
         });
         let count = contents.len() as u32 / 6;
         let camera = camera.view(SIZE.0, SIZE.1);
-        let rotation = DMat3::from(camera.view_from_world.matrix3);
-        let clip_from_eye = camera.clip_from_view * DMat4::from_mat3(rotation);
+        let clip_from_eye = camera.clip_from_view * DMat4::from_mat3(camera.view_from_world.matrix3);
         gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&clip_from_eye.as_mat4().to_cols_array()));
         let frame = umbrage::fullscreen::bind(&gpu, "host", &self.layout, &[self.frame.as_entire_binding()]);
 
