@@ -3,8 +3,8 @@
 //!     cargo run --release -p umbrage-renderer --example window
 //!     cargo run --release -p umbrage-renderer --example window -- --frames 9
 //!
-//! The second needs no display: it draws frames, each with the next technique, and prints how bright
-//! they are.
+//! The second needs no display: it draws frames, each with the next technique, and prints how
+//! bright they are.
 
 #[cfg(not(target_family = "wasm"))]
 #[path = "window/show.rs"]

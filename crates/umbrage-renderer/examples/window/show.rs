@@ -51,7 +51,7 @@ impl Show {
     }
 }
 
-/// Boxes and balls on a floor, under a ball of light.
+/// Boxes and a sphere on a floor, under a sphere light.
 fn scene() -> Scene {
     let mut scene = Scene::default();
     let material = scene.add_material(Material::default());

@@ -1,5 +1,5 @@
-//! The host: a device, a depth buffer, a colour target, triangles and pipelines. It knows of umbrage
-//! only that some text stands before its shader and that bind group 1 goes with it.
+//! The host: a device, a depth buffer, a colour target, triangles and pipelines. It knows of
+//! umbrage only that some text stands before its shader and that bind group 1 goes with it.
 
 use super::Result;
 use super::things::{self, Corner};

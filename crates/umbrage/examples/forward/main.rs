@@ -29,7 +29,7 @@ pub fn camera() -> Camera {
     Camera { eye: DVec3::new(2.6, 2.6, 5.4), target: DVec3::new(-0.1, 0.75, 0.0), ..Camera::default() }
 }
 
-/// A low sun, and a lamp that is a ball.
+/// A low sun, and a lamp that is a sphere.
 pub fn lights() -> [Light; 2] {
     let direction = DVec3::new(0.75, -0.55, -0.35).normalize();
     let sun = LightShape::Directional { direction, angle_deg: 0.5 };

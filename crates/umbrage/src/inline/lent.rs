@@ -1,4 +1,5 @@
-//! What a technique lends to shaders of a host's own: the look-up of its maps and all that it reads.
+//! What a technique lends to shaders of a host's own: the look-up of its maps and all that it
+//! reads.
 
 use crate::error::Error;
 use crate::shader::Shader;

@@ -32,8 +32,8 @@ use std::fmt::Write;
 /// [`Casters::receive_in`](crate::Casters::receive_in). Where they cover nothing, it is 1.
 ///
 /// Of several lights the functions take a number first, as `lights_visibility(light: u32, position:
-/// vec3f, normal: vec3f)`; a number beyond them is lit. All names in the WGSL begin with the prefix,
-/// there are no overrides in it, and all that it reads is in one bind group.
+/// vec3f, normal: vec3f)`; a number beyond them is lit. All names in the WGSL begin with the
+/// prefix, there are no overrides in it, and all that it reads is in one bind group.
 #[derive(Debug)]
 pub struct Inline {
     prefix: String,

@@ -1,5 +1,5 @@
-//! What shaders of hosts read in place of the full-screen pass's uniforms, since their receivers are
-//! given relative to the eye.
+//! What shaders of hosts read in place of the full-screen pass's uniforms, since their receivers
+//! are given relative to the eye.
 
 use super::uniforms::MapLookup;
 use crate::inline::Lent;

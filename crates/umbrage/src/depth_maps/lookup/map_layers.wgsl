@@ -61,7 +61,7 @@ struct MapLookup {
     // From positions relative to the eye, for `map_inline`.
     ndc_from_eye: mat4x4f,
     layers: array<MapLayer, MOST_LAYERS>,
-    // A receiver's place to the way from the light's centre, times w; to one towards parallel light.
+    // A receiver's place to the way from the light's centre, or along parallel light, times w.
     // Chooses the layer.
     from_light: mat4x4f,
     // Rounding of stored depth: relative, and absolute.

@@ -7,14 +7,14 @@ struct Pixel {
     // The pixel, whose taps differ from those of its neighbours.
     at: vec2f,
     is_drawn: bool,
-    // Homogeneous, in the space that the light's matrices start from: the camera's normalised device
-    // coordinates, or relative to the eye.
+    // Homogeneous, in the space that the light's matrices start from: the camera's normalised
+    // device coordinates, or relative to the eye.
     place: vec4f,
     // The last coordinate of the place relative to the eye, homogeneous.
     w: f32,
     surface: Surface,
-    // Metres that the place may be off in each coordinate, and metres times the length of the normal
-    // that it may be off its surface.
+    // Metres that the place may be off in each coordinate, and metres times the length of the
+    // normal that it may be off its surface.
     rounding: f32,
     off: f32,
 }

@@ -9,7 +9,7 @@ use umbrage::core::{Bounds, Camera, Image, Light, LightShape, Material, Scene, p
 use umbrage::{Error, Followed, Gpu, Inline, Lent, Technique, find, techniques};
 use umbrage_reference::Tracer;
 
-/// A floor, a cube, a ball above it, a card that leans, all around `origin`.
+/// A floor, a cube, a sphere above it, a card that leans, all around `origin`.
 fn scene(origin: DVec3) -> Scene {
     let mut scene = Scene::default();
     let material = scene.add_material(Material::default());
@@ -111,8 +111,8 @@ fn the_answer_is_that_of_the_full_screen_pass() {
         let mut technique = make(&gpu, id, set);
         for (name, light) in lights(origin) {
             let (Difference { mean, apart }, shadow) = compare(&mut host, &camera(origin), &light, &mut technique);
-            // Where corners are snapped, what is interpolated and what depth says are apart by up to
-            // a sixteenth of a pixel.
+            // Where corners are snapped, what is interpolated and what depth says are apart by up
+            // to a sixteenth of a pixel.
             let most_apart = if gpu.snapping() < 0.01 { 1e-3 } else { 0.05 };
             if !(mean <= 1e-3 && apart <= most_apart && shadow > 0.02) {
                 wrong.push(format!("{id}:{set} {name}: {mean:.6}, {apart:.5} apart, {shadow:.3} in shadow"));
