@@ -1,6 +1,6 @@
 //! Penumbrae of a straight edge against the closed form: where they are and how wide.
 
-use crate::common::{gpu, pairs, visibility};
+use crate::common::{against_truth, gpu, pairs, visibility};
 use std::f64::consts::FRAC_PI_2;
 use umbrage::core::glam::{DAffine3, DMat3, DVec2, DVec3};
 use umbrage::core::light_view::LightView;
@@ -330,4 +330,23 @@ fn penumbrae_of_lines_are_right() {
 #[test]
 fn penumbrae_of_suns_are_right() {
     follows_the_light(&suns());
+}
+
+/// A wide sun that is low: the floor's own plane hides a third of it, wherever the eye is.
+#[test]
+fn the_floor_hides_what_of_a_wide_sun_is_below_its_plane() {
+    let gpu = gpu();
+    let mut scene = Scene::default();
+    let material = scene.add_material(Material::default());
+    let (floor, cube) = (scene.add_mesh(primitive::plane()), scene.add_mesh(primitive::cube()));
+    scene.place(floor, material, DAffine3::from_scale(DVec3::splat(6.0)));
+    scene.place(cube, material, DAffine3::from_translation(DVec3::new(-4.0, 0.5, -4.0)));
+    let direction = DVec3::new(1.0, -0.1, 0.2).normalize();
+    scene.lights.push(Light::new(LightShape::Directional { direction, angle_deg: 30.0 }));
+    scene.camera = Camera { eye: DVec3::new(2.0, 3.0, 5.0), target: DVec3::ZERO, ..Camera::default() };
+    for id in ["pcss", "pcss-jitter", "evsm"] {
+        let set = if id == "evsm" { "softness=light" } else { "" };
+        let scores = against_truth(&gpu, &scene, 0, id, set, (96, 72), 64);
+        assert!(scores.mae < 0.05, "{id}: {:.4}", scores.mae);
+    }
 }
