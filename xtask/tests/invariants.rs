@@ -168,3 +168,19 @@ fn sources(folder: &str) -> Vec<(String, String)> {
     }
     found
 }
+
+/// A depth bias of the hardware means another thing in every format and on every device; what maps
+/// need is computed in shaders.
+#[test]
+fn no_pipeline_has_a_depth_bias() {
+    let mut states = 0;
+    for (path, text) in ["umbrage", "umbrage-renderer"].into_iter().flat_map(|name| sources(&format!("crates/{name}/src"))) {
+        assert!(!text.contains("DepthBiasState"), "{path} names a depth bias");
+        for state in text.split("wgpu::DepthStencilState {").skip(1) {
+            states += 1;
+            let has_none = state.lines().take(7).any(|line| line.contains("bias: Default::default()"));
+            assert!(has_none, "{path} has a state of depth with a bias");
+        }
+    }
+    assert!(states > 5, "only {states} states of depth were found");
+}

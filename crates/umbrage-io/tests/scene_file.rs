@@ -40,6 +40,19 @@ fn absent_keys_have_their_defaults() {
 }
 
 #[test]
+fn a_camera_with_parallel_lines_of_sight_may_see_behind_its_eye() {
+    let camera = "[camera]\neye = [0, 2, 6]\ntarget = [0, 2, 0]\nheight = 3\nnear = -10\nfar = 20\n";
+    let scene = open(&format!("{camera}[[model]]\nprimitive = 'plane'\nsize = [1, 1]\n")).scene;
+    let camera = &scene.camera;
+    let (parallel, near) = (camera.parallel.unwrap(), camera.near);
+    assert!(near > 0.0);
+    // The same planes, seen from farther back.
+    assert_eq!(camera.eye.z - near, 16.0);
+    assert_eq!(camera.eye.z - parallel.far, -14.0);
+    assert_eq!((parallel.height, camera.eye.x, camera.eye.y), (3.0, 0.0, 2.0));
+}
+
+#[test]
 fn every_key_is_read() {
     let scene = open(
         "name = 'n'

@@ -3,6 +3,8 @@
 //! ray tracer. These tests need a graphics adapter, a software one will do.
 
 mod buffers;
+mod cases;
 mod host;
 mod projections;
+mod stereo;
 mod targets;
