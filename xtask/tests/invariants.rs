@@ -170,16 +170,22 @@ fn sources(folder: &str) -> Vec<(String, String)> {
 }
 
 /// A depth bias of the hardware means another thing in every format and on every device; what maps
-/// need is computed in shaders.
+/// need is computed in shaders. One pipeline has one: light caps of `volume` lie on the surface that
+/// a host draws in its own way.
 #[test]
 fn no_pipeline_has_a_depth_bias() {
     let mut states = 0;
-    for (path, text) in ["umbrage", "umbrage-renderer"].into_iter().flat_map(|name| sources(&format!("crates/{name}/src"))) {
-        assert!(!text.contains("DepthBiasState"), "{path} names a depth bias");
-        for state in text.split("wgpu::DepthStencilState {").skip(1) {
-            states += 1;
-            let has_none = state.lines().take(7).any(|line| line.contains("bias: Default::default()"));
-            assert!(has_none, "{path} has a state of depth with a bias");
+    for (path, text) in
+        ["umbrage", "umbrage-renderer"].into_iter().flat_map(|name| sources(&format!("crates/{name}/src")))
+    {
+        let is_of_caps = path.ends_with("volume/pipelines.rs");
+        assert!(is_of_caps || !text.contains("DepthBiasState"), "{path} names a depth bias");
+        for state in text.split("wgpu::DepthStencilState {").skip(1).filter(|_| !is_of_caps) {
+            // That of a function's result has no fields.
+            let fields = state.trim_start().starts_with("format");
+            states += u32::from(fields);
+            let has_none = state.lines().take(8).any(|line| line.contains("bias: Default::default()"));
+            assert!(!fields || has_none, "{path} has a state of depth with a bias");
         }
     }
     assert!(states > 5, "only {states} states of depth were found");

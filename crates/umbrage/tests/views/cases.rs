@@ -35,9 +35,11 @@ fn a_parallel_camera_sees_what_is_behind_its_eye() {
     let eye = DVec3::splat(25.0);
     let behind = eye + DVec3::new(5.0, 2.0, 4.0);
     assert!((behind + DVec3::Y * 4.0 - eye).dot(forward) < 0.0);
-    let at = [(DVec3::new(2.0, 0.0, -3.0), DVec3::new(2.0, 3.0, 2.0)), (behind, DVec3::new(5.0, 0.3, 5.0))];
+    let at = [(DVec3::new(-1.0, 0.0, 1.0), DVec3::new(3.0, 9.0, 3.0)), (behind, DVec3::new(5.0, 0.3, 5.0))];
     let above = (behind + DVec3::Y * 2.0, DVec3::new(2.0, 1.0, 2.0));
-    let scene = boxes(60.0, at.into_iter().chain([above]), sun());
+    let aside = DVec3::new(0.7, -1.0, -0.5).normalize();
+    let shape = LightShape::Directional { direction: aside, angle_deg: 0.0 };
+    let scene = boxes(60.0, at.into_iter().chain([above]), shape);
     let depth = 1.0 / 1500.0;
     let (half, aspect) = (10.8, f64::from(SIZE.0) / f64::from(SIZE.1));
     let clip_from_view = DMat4::from_cols(
@@ -49,11 +51,13 @@ fn a_parallel_camera_sees_what_is_behind_its_eye() {
     let camera = Camera { eye, target: DVec3::ZERO, ..Camera::default() };
     let view = CameraView::from_matrices(camera.view_from_world(), clip_from_view);
     let truth = Truth::of(&scene, &camera.with_parallel(21.6, -500.0, 1000.0), SIZE);
+    let dark = truth.visibility.data.iter().filter(|v| **v < 0.5).count();
+    assert!(dark > 150, "{dark} pixels of shadow");
     for id in HARD.into_iter().chain(["light-mask"]) {
         let error = truth.error(&seen(&gpu, &mut *technique(&gpu, id), &scene, &view, SIZE, true).unwrap());
         println!("{id}: {error:.4}");
         let most = if matches!(id, "volume" | "wedges" | "light-mask") { 0.001 } else { 0.004 };
-        assert!(error < most, "{id}: {error:.4}");
+        assert!(error < most + truth.shifted(&gpu), "{id}: {error:.4}");
     }
 }
 
@@ -173,10 +177,13 @@ fn a_skinned_caster_behind_the_camera_throws_its_shadow_into_view() {
 #[test]
 fn of_a_thousand_instances_those_are_drawn_whose_shadows_are_seen() {
     let gpu = gpu();
-    let pole = DVec3::new(0.05, 3.0, 0.05);
+    let pole = DVec3::new(0.13, 3.0, 0.13);
     let seen_boxes = [-1.5, 0.0, 1.5].map(|x| (DVec3::new(x, 0.0, 0.0), DVec3::splat(0.5)));
-    // Beside the picture, towards the light.
-    let beside = (0..50).map(|i| (DVec3::new(5.6 + 0.02 * f64::from(i), 0.0, -3.4 + 0.136 * f64::from(i)), pole));
+    // Beside the picture, towards the light, in two rows.
+    let beside = (0..50).map(|i| {
+        let (row, place) = (f64::from(i / 25), f64::from(i % 25));
+        (DVec3::new(5.8 + row, 0.0, -3.4 + 0.28 * place), pole)
+    });
     let far = (0..947).map(|i| {
         let (turn, distance) = (f64::from(i) * 2.4, 60.0 + 0.05 * f64::from(i));
         (DVec3::new(turn.cos() * distance, 0.0, turn.sin() * distance), DVec3::ONE)
@@ -200,9 +207,9 @@ fn of_a_thousand_instances_those_are_drawn_whose_shadows_are_seen() {
     ] {
         let mut frames = Frames::new(&gpu, &scene, id, &set);
         let error = truth.error(&frames.draw(&scene, &scene.camera));
-        let stats = frames.technique.inside().stats();
-        println!("{id}: {error:.4}, {stats:?}");
-        assert!(error < most, "{id}: {error:.4}");
+        let (stats, shifted) = (frames.technique.inside().stats(), truth.shifted(&gpu));
+        println!("{id}: {error:.4}, by shifted edges {shifted:.4}, {stats:?}");
+        assert!(error < most + shifted, "{id}: {error:.4}, by shifted edges {shifted:.4}");
         assert!(stats.casters_drawn >= 53 && stats.casters_culled >= 800, "{id}: {stats:?}");
     }
 }

@@ -299,6 +299,18 @@ impl Truth {
         }
     }
 
+    /// Mean error where edges of hard shadows move as far as the rasteriser may shift them.
+    pub fn shifted(&self, gpu: &Gpu) -> f64 {
+        let (w, h) = self.mask.size();
+        let steps = |x: u32, y: u32| {
+            let beside = [(x + 1, y), (x, y + 1)].into_iter().filter(|&(x, y)| x < w && y < h);
+            beside.filter(|at| self.visibility[*at] != self.visibility[(x, y)]).count()
+        };
+        let places = (0..h).flat_map(|y| (0..w).map(move |x| (x, y))).filter(|at| self.mask[*at]);
+        let (count, sum) = places.fold((0_u32, 0), |(count, sum), (x, y)| (count + 1, sum + steps(x, y)));
+        f64::from(gpu.snapping()) * sum as f64 / f64::from(count)
+    }
+
     /// Mean absolute error of a picture.
     pub fn error(&self, seen: &Image<f32>) -> f64 {
         assert_eq!(seen.size(), self.mask.size());

@@ -136,6 +136,7 @@ impl Task<'_> {
         let Some(subject) = Subject::new(rays, points, self.camera, self.surfaces) else { return };
         let mut add = |map: &FlatMap, layer| views.extend(view::of(map, &subject, self.scene, self.fit, near, layer));
         if let Warp::PostPerspective { shift, near: least, cube: true } = *self.warp
+            && !self.camera.is_parallel()
             && let Some(camera) = subject.virtual_camera(shift, least, self.fit)
         {
             cube::sides(&subject, &camera, self.fit).iter().for_each(|(side, map)| add(map, *side));
@@ -148,6 +149,8 @@ impl Task<'_> {
 
     fn map(&self, subject: &Subject<'_>) -> Option<FlatMap> {
         let horizon = match *self.warp {
+            // To parallel lines of sight near and far are the same.
+            _ if self.camera.is_parallel() => DVec3::Z,
             Warp::PostPerspective { shift, near, .. } => {
                 let camera = subject.virtual_camera(shift, near, self.fit);
                 camera.map_or(DVec3::Z, |camera| subject.post_perspective(&camera))

@@ -169,8 +169,9 @@ impl Selection {
             }
         };
         // What is counted from infinity needs a dark cap where it ends, while parallel light needs
-        // none infinitely far away.
-        let ends = s.options.reach != Reach::Infinite && !(z_fail && s.light.w == 0.0);
+        // none infinitely far away. Parallel lines of sight have a far plane, before infinity.
+        let is_endless = z_fail && s.light.w == 0.0 && !s.is_parallel_view;
+        let ends = s.options.reach != Reach::Infinite && !is_endless;
         let end = if ends { s.end_of(&placed.bounds) } else { DVec4::ZERO };
         let (light_cap, dark_cap) = if z_fail { self.caps(s, placed, &bounds, end) } else { (false, false) };
         let farthest = s.farthest.filter(|_| ends && !z_fail && end == DVec4::ZERO);
@@ -207,7 +208,7 @@ impl Selection {
     fn caps(&mut self, s: &Situation<'_>, placed: &Placed, bounds: &Bounds, end: DVec4) -> (bool, bool) {
         let cull = s.options.cull.caps;
         let light_cap = !cull || s.frustum.may_see(&placed.bounds);
-        let has_dark = s.light.w != 0.0 || s.options.quads;
+        let has_dark = s.light.w != 0.0 || s.options.quads || s.is_parallel_view;
         let may_see_dark = || match (end == DVec4::ZERO, s.range) {
             (false, _) => s.frustum.may_see(&s.shadow_on(bounds, end)),
             (true, Some(_)) => true,

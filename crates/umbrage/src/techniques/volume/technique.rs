@@ -135,7 +135,8 @@ impl Volume {
 
     /// Makes room and pipelines for what was chosen.
     fn make_ready(&mut self, gpu: &Gpu, view: &View<'_>, light: DVec4) -> Result<(), Error> {
-        let quads = self.options.quads || self.views.as_ref().is_some_and(Views::needs_quads);
+        let has_dark_caps = self.options.quads || view.camera.is_parallel();
+        let quads = has_dark_caps || self.views.as_ref().is_some_and(Views::needs_quads);
         let style = Style { weighted: self.kind == CounterKind::Float, quads };
         let own = Projection::of(&view.camera, self.clamps);
         let camera = view.camera.clip_from_world();
