@@ -170,8 +170,8 @@ fn sources(folder: &str) -> Vec<(String, String)> {
 }
 
 /// A depth bias of the hardware means another thing in every format and on every device; what maps
-/// need is computed in shaders. One pipeline has one: light caps of `volume` lie on the surface that
-/// a host draws in its own way.
+/// need is computed in shaders. One pipeline has one: light caps of `volume` lie on the surface
+/// that a host draws in its own way.
 #[test]
 fn no_pipeline_has_a_depth_bias() {
     let mut states = 0;

@@ -19,8 +19,15 @@ impl HostTarget {
         let takes_floats =
             matches!(format.sample_type(None, Some(features)), Some(wgpu::TextureSampleType::Float { .. }));
         let can_attach = wgpu::TextureUsages::RENDER_ATTACHMENT;
-        if takes_floats && format.guaranteed_format_features(features).allowed_usages.contains(can_attach) {
-            return Ok(Self { state });
+        let known = format.guaranteed_format_features(features);
+        let can_blend = known.flags.contains(wgpu::TextureFormatFeatureFlags::BLENDABLE);
+        if takes_floats && known.allowed_usages.contains(can_attach) {
+            if can_blend || state.blend.is_none() {
+                return Ok(Self { state });
+            }
+            return Err(Error::Lent(format!(
+                "{format:?} can't be blended to on this device; leave out the blend state"
+            )));
         }
         Err(Error::Lent(format!(
             "visibility can't be drawn to {format:?}; choose a format of floats or of numbers from 0 to 1, such as R8Unorm"

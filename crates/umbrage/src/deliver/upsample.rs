@@ -32,9 +32,9 @@ pub struct Coarse<'a> {
 }
 
 /// Takes visibility of fewer pixels to all pixels by one full-screen pass: each takes its value
-/// from those of the four nearest that lie on its own surface. A technique at half the size costs a
-/// quarter a pixel; edges of shadows then are as exact as two pixels allow, and what is smaller than
-/// those may be missed.
+/// from those of the four nearest that lie on its own surface. A technique at half the size costs
+/// a quarter a pixel; edges of shadows then are as exact as two pixels allow, and what is smaller
+/// than those may be missed.
 pub struct Upsample {
     gpu: Gpu,
     target: HostTarget,
@@ -57,7 +57,7 @@ impl Upsample {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniform = gpu.buffer("upsample", &[Upsampling::default()], usage);
         let target = HostTarget::new(gpu, target)?;
-        let mut made = Self {
+        Ok(Self {
             gpu: gpu.clone(),
             target,
             module: SHADER.module(gpu),
@@ -65,15 +65,11 @@ impl Upsample {
             uniform,
             pipelines: [None, None],
             bound: None,
-        };
-        // The one that needs no normals, so that what does not go together is told at once.
-        let pipeline = gpu.validated(|| made.pipeline(false)).map_err(super::rejected)?;
-        made.pipelines[0] = Some(pipeline);
-        Ok(made)
+        })
     }
 
-    /// Records the pass: visibility of all pixels of `receivers`, which `camera` shows, comes to lie
-    /// in `target` from pixel `corner` on, and what is around it stays.
+    /// Records the pass: visibility of all pixels of `receivers`, which `camera` shows, is then in
+    /// `target` from pixel `corner` on, and what is around it stays.
     ///
     /// # Errors
     /// [`Error::Lent`] where it does not fit in, [`Error::Scene`] where both of `coarse` differ in

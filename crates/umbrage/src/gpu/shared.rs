@@ -172,6 +172,12 @@ impl Gpu {
         })
     }
 
+    /// A module with text of a host's, for whoever asks alone.
+    pub(crate) fn module_of_host(&self, label: &str, text: String) -> wgpu::ShaderModule {
+        let source = wgpu::ShaderSource::Wgsl(text.into());
+        self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source })
+    }
+
     /// Gives what compiled pipelines are kept in from one run of the program to the next. wgpu has
     /// it where the device has [`wgpu::Features::PIPELINE_CACHE`]. To make one is `unsafe`, since
     /// its bytes must come from the same driver, for which the host can vouch alone. Only the first

@@ -162,10 +162,7 @@ fn bindings(multisampled: bool) -> [wgpu::BindingType; 3] {
 fn module(gpu: &Gpu, host: &HostDepth<'_>, is_multi: bool) -> wgpu::ShaderModule {
     let Some(stored) = host.stored else { return PLAIN[usize::from(is_multi)].module(gpu) };
     let text = DISTANCES[usize::from(is_multi)].text().unwrap_or_default();
-    gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("resolve distances"),
-        source: wgpu::ShaderSource::Wgsl([text.as_str(), stored.wgsl].join("\n").into()),
-    })
+    gpu.module_of_host("resolve distances", [text.as_str(), stored.wgsl].join("\n"))
 }
 
 fn pipeline(
@@ -175,13 +172,10 @@ fn pipeline(
     has_normals: bool,
     is_off_center: bool,
 ) -> wgpu::RenderPipeline {
-    let groups = [Some(own)];
-    let layout = gpu
-        .device
-        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { bind_group_layouts: &groups, ..Default::default() });
+    let layout = gpu.pipeline_layout(&[Some(own)]);
     let constants = [("IS_OFF_CENTER", f64::from(u8::from(is_off_center)))];
     let targets = has_normals.then(|| Some(NORMAL.into()));
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+    gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("resolve receivers"),
         layout: Some(&layout),
         vertex: wgpu::VertexState {

@@ -56,7 +56,12 @@ fn a_parallel_camera_sees_what_is_behind_its_eye() {
     for id in HARD.into_iter().chain(["light-mask"]) {
         let error = truth.error(&seen(&gpu, &mut *technique(&gpu, id), &scene, &view, SIZE, true).unwrap());
         println!("{id}: {error:.4}");
-        let most = if matches!(id, "volume" | "wedges" | "light-mask") { 0.001 } else { 0.004 };
+        let most = match id {
+            "volume" | "wedges" | "light-mask" => 0.001,
+            // It leaves out planes that are small on the screen.
+            "projective" => 0.006,
+            _ => 0.003,
+        };
         assert!(error < most + truth.shifted(&gpu), "{id}: {error:.4}");
     }
 }
@@ -103,10 +108,11 @@ impl<'a> Frames<'a> {
     fn draw(&mut self, scene: &Scene, camera: &Camera) -> Image<f32> {
         let camera = camera.view(SIZE.0, SIZE.1);
         let target = VisibilityTarget::new(self.gpu, SIZE.0, SIZE.1).unwrap();
-        let light = &scene.lights[0];
-        let view = View { camera, receivers: &self.receivers, casters: &self.casters, light, textures: &[] };
         frame(self.gpu, |passes| {
             Target::of(&self.depth).draw(self.gpu, passes.encoder(), scene, &camera);
+            self.casters.record(passes).unwrap();
+            let light = &scene.lights[0];
+            let view = View { camera, receivers: &self.receivers, casters: &self.casters, light, textures: &[] };
             self.technique.prepare(self.gpu, &view).unwrap().record(passes, &target).unwrap();
         });
         target.read(self.gpu).unwrap()
@@ -142,10 +148,10 @@ fn a_kept_point_light_is_right_after_the_camera_looked_away() {
     }
 }
 
-/// The tentacles stand behind the eye; what is seen of them is their shadow, which the low light
-/// behind them throws past the camera.
+/// The tentacles stand behind the eye; what is seen of them is the shadow that they cast past the
+/// camera.
 #[test]
-fn a_skinned_caster_behind_the_camera_throws_its_shadow_into_view() {
+fn a_skinned_caster_behind_the_camera_casts_its_shadow_into_view() {
     let gpu = gpu();
     let mut scene = (umbrage::core::scenes::find("tentacles").unwrap().build)(0.3);
     let position = DVec3::new(0.0, 4.0, 5.0);
@@ -173,7 +179,7 @@ fn a_skinned_caster_behind_the_camera_throws_its_shadow_into_view() {
     }
 }
 
-/// Of 1,000 boxes the camera sees 3; 50 more, beside the picture, throw their shadows into it.
+/// Of 1,000 boxes the camera sees 3; 50 more, beside the picture, cast their shadows into it.
 #[test]
 fn of_a_thousand_instances_those_are_drawn_whose_shadows_are_seen() {
     let gpu = gpu();

@@ -231,7 +231,8 @@ pub fn visibility(
     scene: &Scene,
     (camera, receivers): (&CameraView, &Receivers),
 ) -> Result<VisibilityTarget, Error> {
-    let casters = Casters::new(gpu, scene)?;
+    let mut casters = Casters::new(gpu, scene)?;
+    casters.record(passes)?;
     let target = VisibilityTarget::new(gpu, receivers.size.0, receivers.size.1)?;
     let light = &scene.lights[0];
     let view = View { camera: *camera, receivers, casters: &casters, light, textures: &[] };

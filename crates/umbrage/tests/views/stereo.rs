@@ -17,7 +17,8 @@ fn eyes(scene: &Scene) -> [Camera; 2] {
 fn both(gpu: &Gpu, scene: &Scene, id: &str, set: &[(&str, &str)]) -> [(f64, u32); 2] {
     let set: Vec<_> = set.iter().map(|(name, value)| (name.to_string(), value.to_string())).collect();
     let mut technique = find(id).unwrap().settings(&set).unwrap().make(gpu).unwrap();
-    let casters = Casters::new(gpu, scene).unwrap();
+    let mut casters = Casters::new(gpu, scene).unwrap();
+    frame(gpu, |passes| casters.record(passes)).unwrap();
     let depths = depth_texture(gpu, SIZE, 1, 2);
     let answers = texture(gpu, VisibilityTarget::FORMAT, SIZE, 1, 2);
     let eyes = eyes(scene);
