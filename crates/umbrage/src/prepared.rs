@@ -13,11 +13,14 @@ impl dyn Technique {
     /// `view` can change. Several techniques may be prepared before any is recorded.
     ///
     /// # Errors
-    /// [`Error::Light`] and [`Error::Camera`] for numbers that are not finite or out of their range;
-    /// directions need not be of unit length. [`Error::Unsupported`] for a light or view that the
-    /// technique can't do, [`Error::Size`] beyond the limits. [`Error::Scene`] where casters have
-    /// changed since [`Casters::record`](crate::Casters::record). [`Error::Order`] once where the host
-    /// submitted frames in another order than they were recorded in, [`Error::DeviceLost`].
+    /// - [`Error::Light`] and [`Error::Camera`] for numbers that are not finite or out of their
+    ///   range; directions need not be of unit length.
+    /// - [`Error::Unsupported`] for a light or view that the technique can't do, [`Error::Size`]
+    ///   beyond the limits.
+    /// - [`Error::Scene`] where casters have changed since
+    ///   [`Casters::record`](crate::Casters::record).
+    /// - [`Error::Order`] once where the host submitted frames in another order than they were
+    ///   recorded in; [`Error::DeviceLost`].
     pub fn prepare<'t>(&'t mut self, gpu: &Gpu, view: &View<'t>) -> Result<Prepared<'t>, Error> {
         gpu.check_loss()?;
         gpu.settle();
@@ -42,8 +45,9 @@ impl dyn Technique {
 ///
 /// No other order compiles. Nothing is recorded that was not prepared, nothing twice:
 /// ```compile_fail,E0382
-/// # fn f(t: &mut dyn umbrage::Technique, gpu: &umbrage::Gpu, view: &umbrage::View<'_>,
-/// #      passes: &mut umbrage::Passes<'_>, target: &umbrage::VisibilityTarget) -> Result<(), umbrage::Error> {
+/// # use umbrage::*;
+/// # fn f(t: &mut dyn Technique, gpu: &Gpu, view: &View<'_>, passes: &mut Passes<'_>,
+/// #      target: &VisibilityTarget) -> Result<(), Error> {
 /// let prepared = t.prepare(gpu, view)?;
 /// prepared.record(passes, target)?;
 /// prepared.record(passes, target)
@@ -51,8 +55,9 @@ impl dyn Technique {
 /// ```
 /// and no view takes another one's place:
 /// ```compile_fail,E0499
-/// # fn f(t: &mut dyn umbrage::Technique, gpu: &umbrage::Gpu, [a, b]: [&umbrage::View<'_>; 2],
-/// #      passes: &mut umbrage::Passes<'_>, target: &umbrage::VisibilityTarget) -> Result<(), umbrage::Error> {
+/// # use umbrage::*;
+/// # fn f(t: &mut dyn Technique, gpu: &Gpu, [a, b]: [&View<'_>; 2], passes: &mut Passes<'_>,
+/// #      target: &VisibilityTarget) -> Result<(), Error> {
 /// let of_a = t.prepare(gpu, a)?;
 /// let of_b = t.prepare(gpu, b)?;
 /// of_a.record(passes, target)?;

@@ -72,7 +72,7 @@ impl Kept {
     }
 
     /// False once for everything that went wrong: the thing is then not what it was recorded to be,
-    /// and has to be made anew. Where the GPU has not come to a frame yet, all is taken to go well.
+    /// and has to be made anew. Where the GPU has not reached a frame yet, all is taken to go well.
     pub fn holds(&mut self) -> bool {
         let (mut holds, mut latest, mut is_overtaken) = (true, 0, false);
         self.open.retain(|frame| match frame.fate() {

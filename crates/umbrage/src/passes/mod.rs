@@ -96,8 +96,8 @@ impl Recorder {
     }
 
     /// Starts a frame on a host's encoder, which is to be submitted after those of earlier frames:
-    /// what one frame leaves on the GPU, the next one may use. Callbacks of work that is done may be
-    /// called.
+    /// what one frame leaves on the GPU, the next one may use. Callbacks of work that is done may
+    /// be called.
     pub fn begin<'a>(&'a mut self, encoder: &'a mut wgpu::CommandEncoder) -> Passes<'a> {
         self.gpu.settle();
         if let Some(timer) = &mut self.timer {
