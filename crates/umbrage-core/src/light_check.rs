@@ -12,8 +12,8 @@ impl Light {
     /// perpendicular to the first; `None` where it is so already.
     ///
     /// # Errors
-    /// What is wrong with a light that can't shine, and the remedy: a place, a size or an angle that
-    /// is not finite or out of its range, a direction without length.
+    /// What is wrong with a light that can't shine, and the remedy: a place, a size or an angle
+    /// that is not finite or out of its range, a direction without length.
     pub fn usable(&self) -> Result<Option<Self>, String> {
         let kind = self.shape.kind().name();
         let usable = || {
