@@ -43,6 +43,7 @@ macro_rules! broken {
             family: Family::Control,
             filter: None,
             lights: LightKinds::ALL,
+            casters: umbrage::Needs::Depth,
             features: wgpu::Features::empty(),
             limits: |_| (),
             hard: false,

@@ -73,7 +73,9 @@ mod visibility;
 mod warm_up;
 
 pub use answer::{Answer, RadianceTarget};
-pub use casters::{Casters, InstanceId, MaterialId, MeshId, Placement, SeenCasters, TextureId};
+pub use casters::{
+    CasterView, Casters, HostCasters, InstanceId, MaterialId, MeshId, Needs, Placement, SeenCasters, TextureId,
+};
 pub use deliver::{Coarse, Deliver, Upsample};
 pub use error::{Error, nearest};
 pub use gpu::{AdapterSummary, Gpu};

@@ -140,6 +140,10 @@ impl Technique for LightSamples {
         self.inner.set(gpu, settings)
     }
 
+    fn draws_host_casters(&self) -> bool {
+        self.inner.draws_host_casters()
+    }
+
     fn inside(&self) -> &dyn Inside {
         self
     }

@@ -2,6 +2,7 @@
 //! its type.
 
 use crate::answer::RadianceTarget;
+use crate::casters::refuse_host_casters;
 use crate::checked::Checked;
 use crate::inline::Inline;
 use crate::technique::{InOrder, Technique};
@@ -26,6 +27,9 @@ impl dyn Technique {
         gpu.settle();
         gpu.check_fault()?;
         view.casters.check_recorded()?;
+        if view.casters.has_host_casters() && !self.draws_host_casters() {
+            refuse_host_casters("it needs more of them than depth")?;
+        }
         let checked = Checked::new(view)?;
         self.prepare_view(gpu, &checked.view(), InOrder::new())?;
         Ok(Prepared { technique: self, checked })

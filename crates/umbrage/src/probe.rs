@@ -54,6 +54,10 @@ impl Technique for Probe {
         Ok(true)
     }
 
+    fn draws_host_casters(&self) -> bool {
+        true
+    }
+
     fn inside(&self) -> &dyn Inside {
         self
     }
@@ -105,6 +109,7 @@ pub fn assert_forwards(wrap: impl Fn(&Gpu, Box<dyn Technique>) -> Box<dyn Techni
     let mut wrapped = wrap(&gpu, Box::new(Probe::new(&gpu, Arc::clone(&calls))));
     let settings = find("none").expect("a technique").default_settings();
     assert!(wrapped.set(&gpu, &settings).expect("no error"), "settings are taken over");
+    assert!(wrapped.draws_host_casters(), "casters of hosts are drawn");
     wrapped.inside_mut().forget();
     wrapped.inside_mut().inspect(Some("probe"));
     let noted = calls.lock().expect("all calls are done").clone();

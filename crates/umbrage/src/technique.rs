@@ -1,7 +1,7 @@
 //! What a technique is.
 
 use crate::{
-    Answer, Error, FilterUse, Gpu, Lent, Param, Passes, RadianceTarget, Registry, Settings, Shader, View,
+    Answer, Error, FilterUse, Gpu, Lent, Needs, Param, Passes, RadianceTarget, Registry, Settings, Shader, View,
     VisibilityTarget, settings::Configure,
 };
 use std::any::Any;
@@ -83,6 +83,12 @@ pub trait Technique: Any + wgpu::WasmNotSend {
     /// [`TechniqueInfo::is_lent`] tells before.
     fn lend(&mut self, _gpu: &Gpu) -> Result<Lent, Error> {
         Lent::refuse("this technique")
+    }
+
+    /// True where it has casters drawn that a host draws itself, see
+    /// [`HostCasters`](crate::HostCasters), or needs none; others refuse views with such casters.
+    fn draws_host_casters(&self) -> bool {
+        false
     }
 
     /// What is inside, for those who measure and look.
@@ -218,6 +224,8 @@ pub struct TechniqueInfo {
     pub filter: Option<FilterUse>,
     /// The kinds of light it can do; soft kinds done as hard ones from their centre count.
     pub lights: LightKinds,
+    /// What it has to know of casters.
+    pub casters: Needs,
     /// Features it can't do without.
     pub features: wgpu::Features,
     /// Raises limits to what it can't do without, such as [`storage_buffers`].

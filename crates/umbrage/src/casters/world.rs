@@ -5,6 +5,7 @@ use super::batches::Batches;
 use super::changed::Changed;
 use super::edges::{Edges, MeshEdges};
 use super::geometry::{Geometry, MeshPart, Sizes};
+use super::host::{CasterView, Host, HostCasters, refuse};
 use super::ids::{Id, Slots};
 use super::journal::Journal;
 use super::material::Appearance;
@@ -17,8 +18,8 @@ use super::region::Region;
 use super::store::Store;
 use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{error::Error, gpu::Gpu};
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 use umbrage_core::glam::{DVec3, Vec4};
 use umbrage_core::{Bounds, Mesh, Scene, scene_tree::SceneTree};
 
@@ -63,6 +64,8 @@ pub struct Casters {
     pub(super) receiving_in: Vec<Bounds>,
     /// Boxes of those that do neither.
     pub(super) bystanders: SceneTree,
+    /// What the host draws itself.
+    pub(super) host: Option<Host>,
     pub(super) moves: Moves,
     /// Places of those that are convex bodies wound outwards.
     pub(super) solid: Places,
@@ -116,6 +119,7 @@ impl Casters {
             receiving: region.tree(),
             receiving_in: Vec::new(),
             bystanders: region.tree(),
+            host: None,
             moves: Moves::default(),
             solid: Places::default(),
             poses: Poses::default(),
@@ -181,9 +185,44 @@ impl Casters {
         self.receiving_in.iter().fold(self.receiving.content(), |all, one| all.union(*one))
     }
 
+    /// Has the host draw casters of its own into the maps of lights, somewhere within `bounds`;
+    /// `None` ends that. Techniques that need more than depth refuse such casters: see
+    /// [`crate::TechniqueInfo::casters`]. To be called again whenever they move or look otherwise,
+    /// or maps that are kept show them as they were.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for a box that is empty or not finite.
+    pub fn set_host_casters(&mut self, new: Option<(Bounds, Arc<dyn HostCasters>)>) -> Result<(), Error> {
+        self.host = new.map(|(bounds, draws)| Host::new(bounds, draws)).transpose()?;
+        self.version = next_version();
+        Ok(())
+    }
+
+    /// True where the host draws casters itself.
+    pub(crate) fn has_host_casters(&self) -> bool {
+        self.host.is_some()
+    }
+
+    /// The box around what the host draws itself.
+    pub(crate) fn host_bounds(&self) -> Option<Bounds> {
+        self.host.as_ref().map(|host| host.bounds)
+    }
+
+    /// Has the host draw its own casters.
+    pub(crate) fn draw_host_casters(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView<'_>) {
+        if let Some(host) = &self.host {
+            host.draws.draw(pass, view);
+        }
+    }
+
+    /// A box around everything that casts shadows, what the host draws included.
+    pub(crate) fn casting_content(&self) -> Bounds {
+        self.casting.content().union(self.host_bounds().unwrap_or(Bounds::EMPTY))
+    }
+
     /// A box around everything that is shown.
     pub(crate) fn all_bounds(&self) -> Bounds {
-        self.casting.content().union(self.receivers_bounds()).union(self.bystanders.content())
+        self.casting_content().union(self.receivers_bounds()).union(self.bystanders.content())
     }
 
     /// Tells these casters from others, and from what they were before all of them was sent anew.
@@ -256,6 +295,9 @@ impl Casters {
     /// # Errors
     /// [`Error::Size`] where they do not fit the adapter's limits.
     pub(crate) fn edges(&self, gpu: &Gpu) -> Result<&Edges, Error> {
+        if self.host.is_some() {
+            refuse("their edges are not known")?;
+        }
         if let Some(edges) = self.edges.get() {
             return Ok(edges);
         }

@@ -8,6 +8,7 @@ use super::lookup::{Lookup, LookupInput};
 use super::setup::{Depth, Faces, MapSetup};
 use super::stages::{SplitFitter, Stage};
 use crate::{
+    casters::refuse_host_casters,
     error::Error,
     gpu::Gpu,
     inline::Lent,
@@ -146,9 +147,31 @@ impl MapTechnique {
     }
 }
 
+impl MapTechnique {
+    /// Hosts draw by a matrix, and depth as the rasteriser has it, once.
+    fn check_host_casters(&self) -> Result<(), Error> {
+        if self.stage.as_ref().is_some_and(|stage| stage.needs_edges()) {
+            return refuse_host_casters("it draws their edges");
+        }
+        if self.setup.faces == Faces::Midpoint {
+            return refuse_host_casters("`faces = midpoint` draws casters twice");
+        }
+        if self.frame.is_linear {
+            return refuse_host_casters("`depth = linear` has shaders write depth");
+        }
+        if self.frame.views.iter().any(|view| view.paraboloid.is_some()) {
+            return refuse_host_casters("`omni = dual-paraboloid` bends them");
+        }
+        Ok(())
+    }
+}
+
 impl Technique for MapTechnique {
     fn prepare_view(&mut self, gpu: &Gpu, view: &View<'_>, _: InOrder) -> Result<(), Error> {
         self.fit.prepare(view, self.setup.depth == Depth::Linear, &mut self.frame);
+        if view.casters.has_host_casters() {
+            self.check_host_casters()?;
+        }
         let fitter = self.fitter.as_ref().filter(|_| matches!(self.frame.layers, Layers::Splits(_)));
         self.frame.matrices = fitter.map(|fitter| fitter.matrices().clone());
         self.draw.prepare(gpu, view, &mut self.frame);
@@ -179,6 +202,10 @@ impl Technique for MapTechnique {
     fn record_maps(&mut self, passes: &mut Passes<'_>, view: &View<'_>, _: InOrder) -> Result<(), Error> {
         self.draw_maps(passes, view);
         Ok(())
+    }
+
+    fn draws_host_casters(&self) -> bool {
+        true
     }
 
     fn lend(&mut self, gpu: &Gpu) -> Result<Lent, Error> {

@@ -20,6 +20,7 @@ mod linear_light;
 mod masks;
 mod offsets;
 mod outside;
+mod own_buffers;
 mod own_maps;
 mod pcf_blur;
 mod penumbra;

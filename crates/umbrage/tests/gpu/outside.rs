@@ -33,6 +33,7 @@ static INFO: TechniqueInfo = TechniqueInfo {
     shaders: &[SHADERS[0], SHADERS[1], SHADERS[2], SHADER],
     views: &LAYER_NAMES,
     lights: LIGHTS,
+    casters: umbrage::Needs::Depth,
     ..umbrage::techniques::none::INFO
 };
 

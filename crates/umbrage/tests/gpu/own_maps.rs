@@ -57,6 +57,7 @@ const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::DepthMaps,
     filter: None,
     lights: LIGHTS,
+    casters: umbrage::Needs::Depth,
     features: wgpu::Features::empty(),
     limits: |limits| limits.max_storage_buffers_per_shader_stage = 2,
     hard: true,

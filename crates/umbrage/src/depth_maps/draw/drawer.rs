@@ -6,7 +6,7 @@ use super::movers::Movers;
 use super::pipelines::{Kind, Pipelines};
 use super::textures::Textures;
 use super::view::MapView;
-use crate::casters::{self, Casters};
+use crate::casters::{self, CasterView, Casters};
 use crate::depth_maps::frame::MapFrame;
 use crate::depth_maps::layers::Layers;
 use crate::{
@@ -131,7 +131,9 @@ impl Drawer {
             let uniform = &textures.uniforms[i].0;
             passes.upload(uniform, bytemuck::bytes_of(&layer.uniform));
             frame.take_matrix(passes, view.layer, uniform);
-            let rounds = self.pipelines.record(passes, casters, (numbers, layer), textures, i, kind(frame));
+            let is_cropped_on_gpu = frame.matrices.is_some();
+            let seen = CasterView { light_view: view, origin: casters.origin(), is_cropped_on_gpu };
+            let rounds = self.pipelines.record(passes, casters, (numbers, layer), textures, &seen, kind(frame));
             draws += rounds * layer.list.draws() + layer.rest.draws();
             triangles += u64::from(rounds) * layer.list.triangles(casters) + layer.rest.triangles(casters);
         }

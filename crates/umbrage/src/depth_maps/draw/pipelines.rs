@@ -4,7 +4,7 @@ use super::cache::Work;
 use super::layer::Layer;
 use super::layouts::Layouts;
 use super::textures::{FORMAT, Textures};
-use crate::casters::{CasterDraw, Casters, InstanceNumbers, Surface};
+use crate::casters::{CasterDraw, CasterView, Casters, InstanceNumbers, Surface};
 use crate::shader::Shader;
 use crate::{gpu::Gpu, passes::Passes};
 
@@ -139,28 +139,33 @@ impl Pipelines {
         casters: &Casters,
         (numbers, layer): (&InstanceNumbers, &Layer),
         textures: &Textures,
-        i: usize,
+        view: &CasterView<'_>,
         kind: Kind,
     ) -> u32 {
         let Some(set) = self.set(kind).filter(|_| layer.work != Work::Keep) else { return 0 };
+        let i = view.light_view.layer as usize;
         let views = &textures.layers[i];
         let view_uniform = &textures.uniforms[i].1;
-        let draw = |passes: &mut Passes<'_>, label, list, attachment| {
+        let draw = |passes: &mut Passes<'_>, label, list, attachment, is_all: bool| {
             let mut pass = passes.render(label, &[], attachment);
             pass.set_bind_group(0, view_uniform, &[]);
             numbers.draw(&mut pass, casters, list, false, |surface| &set.nearest[surface as usize]);
+            if is_all && casters.has_host_casters() {
+                pass.set_bind_group(0, view_uniform, &[]);
+                casters.draw_host_casters(&mut pass, view);
+            }
         };
         if let (Work::Over { rest }, Some(store)) = (layer.work, textures.stored(i)) {
             if rest {
-                draw(passes, "casters at rest", &layer.rest, clear(store));
+                draw(passes, "casters at rest", &layer.rest, clear(store), true);
             }
             textures.take_stored(passes.encoder(), i);
             if layer.list.draws() > 0 {
-                draw(passes, "map", &layer.list, over(&views.first));
+                draw(passes, "map", &layer.list, over(&views.first), false);
             }
             return 1;
         }
-        draw(passes, "map", &layer.list, clear(&views.first));
+        draw(passes, "map", &layer.list, clear(&views.first), true);
         let (Some(second), Some(pipelines)) = (&views.second, &set.second) else { return 1 };
         {
             let mut pass = passes.render("second surface", &[], clear(&second.second));

@@ -61,6 +61,7 @@ impl Fitter {
         if self.scene_of != Some(now) {
             casters.clear();
             view.casters.casting().cut(&EVERYWHERE, MOST_BOXES, casters);
+            casters.extend(view.casters.host_bounds());
             sort(casters);
             self.scene_of = Some(now);
         }

@@ -118,7 +118,7 @@ fn from_light(view: &View<'_>) -> DMat4 {
 /// Largest coordinate that the vertex shader computes with, metres: what rounding goes by.
 fn largest_coordinate(view: &View<'_>) -> f64 {
     let origin = view.casters.origin();
-    let casters = view.casters.casting().content();
+    let casters = view.casters.casting_content();
     let casters = Bounds { min: casters.min - origin, max: casters.max - origin };
     let center = view.light.shape.center();
     let light = (center.truncate() - origin).abs().max_element() * center.w;

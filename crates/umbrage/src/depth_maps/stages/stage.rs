@@ -7,6 +7,12 @@ use crate::{error::Error, gpu::Gpu, passes::Passes, technique::DebugView, view::
 
 /// Passes over a light's maps or over its casters, and what the look-up binds besides the maps.
 pub trait Stage: wgpu::WasmNotSend {
+    /// True where it needs edges of casters: then there may be none that a host draws itself, see
+    /// [`crate::HostCasters`].
+    fn needs_edges(&self) -> bool {
+        false
+    }
+
     /// The layout of [`Stage::bind_group`], the shader's group 2.
     fn layout(&self) -> &wgpu::BindGroupLayout;
 

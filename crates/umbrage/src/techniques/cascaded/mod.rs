@@ -8,6 +8,7 @@ use crate::depth_maps::{
     Blend, Fitting, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS, SPLIT_FIT_SHADER, Softness, Splits,
 };
 use crate::settings::Configure;
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, FilterId, Gpu, choices, settings};
 use umbrage_core::light_view::{Cascades, Cover};
@@ -72,6 +73,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::FittedMaps,
     filter: None,
     lights: LIGHTS,
+    casters: Needs::Depth,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<3>,
     hard: false,

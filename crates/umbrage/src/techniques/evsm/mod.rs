@@ -10,6 +10,7 @@ mod soft;
 use crate::depth_maps::{BOUNDS_SHADER, Cover, Depth, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS};
 use crate::moment_maps::Filtering;
 use crate::settings::Configure;
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, choices, settings};
 
@@ -70,6 +71,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::MomentMaps,
     filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
+    casters: Needs::Depth,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<3>,
     hard: false,

@@ -12,6 +12,7 @@ mod technique;
 mod tree;
 
 use crate::settings::Configure;
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu, settings};
 use umbrage_core::LightKinds;
@@ -36,6 +37,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::AreaLights,
     filter: None,
     lights: LightKinds::ALL,
+    casters: Needs::Triangles,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<6>,
     hard: false,

@@ -21,6 +21,7 @@ use crate::depth_maps::{CONTOUR_SHADER, EdgePass, LIGHTS, MapSetup, SHADERS as M
 use crate::settings::Configure;
 use crate::shader::{Module, Shader};
 use crate::silhouettes::FIND_SHADER;
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu};
 pub use options::{Edges, LinearLight, Shares};
@@ -60,6 +61,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::DepthMaps,
     filter: None,
     lights: LIGHTS,
+    casters: Needs::Edges,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<{ EdgePass::STORAGE_BUFFERS }>,
     hard: false,

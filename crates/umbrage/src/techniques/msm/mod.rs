@@ -6,6 +6,7 @@ use crate::depth_maps::{Cover, Depth, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTec
 use crate::moment_maps::{Coding, Filtering, MomentStage, Recipe};
 use crate::settings::Configure;
 use crate::shader::{Module, Shader};
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, settings};
 
@@ -44,6 +45,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::MomentMaps,
     filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
+    casters: Needs::Depth,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<2>,
     hard: false,

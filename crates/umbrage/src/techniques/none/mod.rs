@@ -1,5 +1,6 @@
 //! No shadow: the control that every error is compared with (ZA 5.4).
 
+use crate::casters::Needs;
 use crate::{
     error::Error,
     gpu::Gpu,
@@ -36,6 +37,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::Control,
     filter: None,
     lights: LightKinds::ALL,
+    casters: Needs::Nothing,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<0>,
     hard: false,
@@ -69,6 +71,10 @@ impl Technique for Unshadowed {
 
     fn lend(&mut self, _: &Gpu) -> Result<Lent, Error> {
         Ok(Lent::LIT)
+    }
+
+    fn draws_host_casters(&self) -> bool {
+        true
     }
 
     fn inside(&self) -> &dyn Inside {

@@ -5,6 +5,7 @@
 use crate::depth_maps::{Cover, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Softness, Storage};
 use crate::settings::Configure;
 use crate::shader::Shader;
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, settings};
 
@@ -35,6 +36,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::DepthMaps,
     filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
+    casters: Needs::Depth,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<2>,
     hard: false,

@@ -11,6 +11,7 @@ mod tiles;
 use crate::depth_maps::{Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage};
 use crate::settings::Configure;
 use crate::shader::{Module, Shader};
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, choices, settings};
 use blur::{Blur, ScreenBlur};
@@ -74,6 +75,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::DepthMaps,
     filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
+    casters: Needs::Depth,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<3>,
     hard: false,

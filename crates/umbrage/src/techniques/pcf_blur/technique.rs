@@ -50,6 +50,10 @@ impl Technique for Blurred {
         Lent::refuse("pcf-blur")
     }
 
+    fn draws_host_casters(&self) -> bool {
+        self.source.draws_host_casters()
+    }
+
     fn inside(&self) -> &dyn Inside {
         self
     }

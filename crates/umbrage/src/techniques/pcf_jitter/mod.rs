@@ -8,6 +8,7 @@ use crate::depth_maps::{
 };
 use crate::settings::Configure;
 use crate::shader::Shader;
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, settings};
 
@@ -41,6 +42,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::DepthMaps,
     filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
+    casters: Needs::Depth,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<2>,
     hard: false,

@@ -9,6 +9,7 @@ use crate::depth_maps::{
 };
 use crate::settings::Configure;
 use crate::shader::Shader;
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, settings};
 
@@ -42,6 +43,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::DepthMaps,
     filter: Some(FilterUse { warped: false }),
     lights: LIGHTS,
+    casters: Needs::Depth,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<3>,
     hard: false,

@@ -5,6 +5,7 @@
 
 use crate::depth_maps::{Fitting, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS, Softness};
 use crate::settings::Configure;
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, FilterId, Gpu, choices, settings};
 use umbrage_core::{glam::DVec4, light_view::Warp};
@@ -48,6 +49,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::FittedMaps,
     filter: None,
     lights: LIGHTS,
+    casters: Needs::Depth,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<2>,
     hard: false,

@@ -8,6 +8,7 @@ mod technique;
 mod views;
 
 use crate::settings::Configure;
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu, settings};
 use draws::{CAST_SHADER, RESOLVE_SHADER};
@@ -40,6 +41,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::Projected,
     filter: None,
     lights: LightKinds::ALL,
+    casters: Needs::Triangles,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<2>,
     hard: true,

@@ -7,6 +7,7 @@ mod planes;
 mod technique;
 
 use crate::settings::Configure;
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu, choices, settings};
 use draws::{CAST_SHADER, LOOKUP_SHADER};
@@ -57,6 +58,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::Projected,
     filter: None,
     lights: LightKinds::ALL,
+    casters: Needs::Triangles,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<2>,
     hard: false,

@@ -6,6 +6,7 @@
 use crate::depth_maps::{Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage};
 use crate::settings::Configure;
 use crate::shader::Shader;
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, settings};
 
@@ -29,6 +30,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::DepthMaps,
     filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
+    casters: Needs::Depth,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<2>,
     hard: true,

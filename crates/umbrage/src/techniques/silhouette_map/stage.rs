@@ -97,6 +97,10 @@ impl SilhouetteStage {
 }
 
 impl Stage for SilhouetteStage {
+    fn needs_edges(&self) -> bool {
+        true
+    }
+
     fn layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
     }

@@ -14,6 +14,7 @@ use crate::depth_maps::{
 use crate::settings::Configure;
 use crate::shader::{Module, Shader};
 use crate::silhouettes::FIND_SHADER;
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, choices, settings};
 use light::SmoothieLight;
@@ -87,6 +88,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::DepthMaps,
     filter: Some(FilterUse { warped: true }),
     lights: LIGHTS,
+    casters: Needs::Edges,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<{ EdgePass::STORAGE_BUFFERS }>,
     hard: false,

@@ -153,6 +153,10 @@ impl SmoothieStage {
 }
 
 impl Stage for SmoothieStage {
+    fn needs_edges(&self) -> bool {
+        true
+    }
+
     fn layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
     }

@@ -18,6 +18,7 @@ use crate::checked::Checked;
 use crate::settings::Configure;
 pub use crate::silhouettes::Extrude;
 use crate::silhouettes::FIND_SHADER;
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu, Passes, View, VisibilityTarget};
 use depth::DEPTH_SHADER;
@@ -37,6 +38,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::Volumes,
     filter: None,
     lights: LightKinds::ALL,
+    casters: Needs::Edges,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<7>,
     hard: true,

@@ -25,6 +25,7 @@ mod way;
 use crate::settings::Configure;
 use crate::shader::Shader;
 use crate::silhouettes::FIND_SHADER;
+use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu};
 pub use options::{Batch, Combine, Coverage, Cull, Scale, Wedges};
@@ -40,6 +41,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     family: Family::AreaLights,
     filter: None,
     lights: LightKinds::ALL,
+    casters: Needs::Edges,
     features: wgpu::Features::empty(),
     limits: storage_buffers::<8>,
     hard: false,

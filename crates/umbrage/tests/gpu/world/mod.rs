@@ -1,5 +1,6 @@
 //! Casters that change: pictures are those of a scene made anew, and misuse is an error.
 
+mod host_drawn;
 mod misuse;
 mod random;
 
