@@ -66,10 +66,10 @@ fn blocks(frame: usize) -> Vec<[Vec3; 2]> {
     std::iter::once(ground).chain((frame..frame + BLOCKS).map(of)).collect()
 }
 
-/// A picture of 480 × 360 pixels, into the file that is named, else into none.
+/// A picture of 480 × 360 pixels, into the PNG file that is named, else into none.
 pub fn main() -> Result<()> {
     let (picture, _) = frames(8, (480, 360))?;
-    if let Some(path) = std::env::args().nth(1) {
+    if let Some(path) = std::env::args().nth(1).filter(|path| path.ends_with(".png")) {
         umbrage_io::pictures::save_png(path.as_ref(), &picture)?;
     }
     Ok(())
