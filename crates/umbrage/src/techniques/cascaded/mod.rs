@@ -4,11 +4,11 @@
 //! Sources: Zhang et al., "Parallel-Split Shadow Maps for Large-Scale Virtual Environments", 2006;
 //! FE 3 and 5; SG "Extensions".
 
+use crate::casters::Needs;
 use crate::depth_maps::{
     Blend, Fitting, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS, SPLIT_FIT_SHADER, Softness, Splits,
 };
 use crate::settings::Configure;
-use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, FilterId, Gpu, choices, settings};
 use umbrage_core::light_view::{Cascades, Cover};

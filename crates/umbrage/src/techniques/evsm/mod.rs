@@ -7,10 +7,10 @@
 mod fixed;
 mod soft;
 
+use crate::casters::Needs;
 use crate::depth_maps::{BOUNDS_SHADER, Cover, Depth, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS};
 use crate::moment_maps::Filtering;
 use crate::settings::Configure;
-use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, choices, settings};
 

@@ -11,8 +11,8 @@ mod samples;
 mod technique;
 mod tree;
 
-use crate::settings::Configure;
 use crate::casters::Needs;
+use crate::settings::Configure;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu, settings};
 use umbrage_core::LightKinds;

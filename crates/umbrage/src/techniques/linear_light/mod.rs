@@ -17,11 +17,11 @@ mod steps;
 mod technique;
 mod uniform;
 
+use crate::casters::Needs;
 use crate::depth_maps::{CONTOUR_SHADER, EdgePass, LIGHTS, MapSetup, SHADERS as MAP_SHADERS};
 use crate::settings::Configure;
 use crate::shader::{Module, Shader};
 use crate::silhouettes::FIND_SHADER;
-use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu};
 pub use options::{Edges, LinearLight, Shares};

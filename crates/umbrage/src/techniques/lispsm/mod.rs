@@ -3,9 +3,9 @@
 //! Sources: Wimmer, Scherzer and Purgathofer, "Light Space Perspective Shadow Maps", 2004; SG
 //! "Perspective Shadow Maps".
 
+use crate::casters::Needs;
 use crate::depth_maps::{Fitting, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS, Softness};
 use crate::settings::Configure;
-use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, FilterId, Gpu, settings};
 use umbrage_core::light_view::Warp;

@@ -2,10 +2,10 @@
 //!
 //! Sources: Reeves, Salesin and Cook 1987; ZA 3.2; FE 2.3.1.
 
+use crate::casters::Needs;
 use crate::depth_maps::{Cover, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Softness, Storage};
 use crate::settings::Configure;
 use crate::shader::Shader;
-use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, settings};
 

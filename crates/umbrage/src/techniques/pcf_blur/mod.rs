@@ -8,10 +8,10 @@ mod blur;
 mod technique;
 mod tiles;
 
+use crate::casters::Needs;
 use crate::depth_maps::{Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage};
 use crate::settings::Configure;
 use crate::shader::{Module, Shader};
-use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, choices, settings};
 use blur::{Blur, ScreenBlur};

@@ -3,12 +3,12 @@
 //!
 //! Sources: Fernando, "Percentage-Closer Soft Shadows", 2005; ZA 3.5.
 
+use crate::casters::Needs;
 use crate::depth_maps::{
     BOUNDS_SHADER, Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS, Storage, TapStage, Taps,
 };
 use crate::settings::Configure;
 use crate::shader::Shader;
-use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, settings};
 

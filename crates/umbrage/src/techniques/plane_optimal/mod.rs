@@ -3,9 +3,9 @@
 //! Sources: Chong, "Real-Time Perspective Optimal Shadow Maps", 2003; SG "Thesis of Hamilton Yu-Ik
 //! Chong".
 
+use crate::casters::Needs;
 use crate::depth_maps::{Fitting, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS, Softness};
 use crate::settings::Configure;
-use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, FilterId, Gpu, choices, settings};
 use umbrage_core::{glam::DVec4, light_view::Warp};

@@ -7,8 +7,8 @@ mod draws;
 mod technique;
 mod views;
 
-use crate::settings::Configure;
 use crate::casters::Needs;
+use crate::settings::Configure;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu, settings};
 use draws::{CAST_SHADER, RESOLVE_SHADER};

@@ -6,8 +6,8 @@ mod draws;
 mod planes;
 mod technique;
 
-use crate::settings::Configure;
 use crate::casters::Needs;
+use crate::settings::Configure;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu, choices, settings};
 use draws::{CAST_SHADER, LOOKUP_SHADER};

@@ -4,9 +4,9 @@
 //! Sources: Stamminger and Drettakis 2002; Kozlov, "Perspective Shadow Maps: Care and Feeding",
 //! 2004; SG "Perspective Shadow Maps".
 
+use crate::casters::Needs;
 use crate::depth_maps::{Fitting, Kernel, LAYER_NAMES, LIGHTS, Map, MapSetup, SHADERS, Softness};
 use crate::settings::Configure;
-use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, FilterId, Gpu, choices, settings};
 use umbrage_core::light_view::Warp;

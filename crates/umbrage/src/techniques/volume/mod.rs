@@ -14,11 +14,11 @@ mod situation;
 mod technique;
 mod views;
 
+use crate::casters::Needs;
 use crate::checked::Checked;
 use crate::settings::Configure;
 pub use crate::silhouettes::Extrude;
 use crate::silhouettes::FIND_SHADER;
-use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu, Passes, View, VisibilityTarget};
 use depth::DEPTH_SHADER;

@@ -2,11 +2,11 @@
 //!
 //! Sources: FE 2.3.1; Donnelly and Lauritzen, "Variance Shadow Maps", 2006.
 
+use crate::casters::Needs;
 use crate::depth_maps::{Cover, Depth, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, SHADERS};
 use crate::moment_maps::{Coding, Filtering, MomentStage, Recipe};
 use crate::settings::Configure;
 use crate::shader::{Module, Shader};
-use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Filter, FilterUse, Gpu, settings};
 

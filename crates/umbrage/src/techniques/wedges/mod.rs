@@ -22,10 +22,10 @@ mod technique;
 mod views;
 mod way;
 
+use crate::casters::Needs;
 use crate::settings::Configure;
 use crate::shader::Shader;
 use crate::silhouettes::FIND_SHADER;
-use crate::casters::Needs;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
 use crate::{Error, Gpu};
 pub use options::{Batch, Combine, Coverage, Cull, Scale, Wedges};
