@@ -115,8 +115,11 @@ pub fn draw(
 ) {
     let (seen, camera, target, textures, jitter) = view.into_inner();
     let entity = seen.retained_view_entity.main_entity.id();
-    if !lights.cameras.contains(&entity) || lights.lights.is_empty() {
+    if !lights.cameras.contains(&entity) {
         return;
+    }
+    if lights.lights.is_empty() {
+        return times.set(Vec::new());
     }
     let state = host.0.get_mut().unwrap_or_else(PoisonError::into_inner);
     let picture = Picture { entity, camera: camera_view(seen, textures, jitter), exposure: camera.exposure, target };
@@ -168,6 +171,7 @@ impl State {
         let Some(mirror) = mirror else { return Ok(Vec::new()) };
         let times = recorder.times();
         let mut passes = recorder.begin(encoder);
+        passes.owner(Owner::Host("all lights"));
         mirror.record(&mut passes)?;
         normals.record(&mut passes, &picture.camera, &bound.normals);
         let mut troubles = Vec::new();

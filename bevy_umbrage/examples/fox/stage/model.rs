@@ -1,8 +1,14 @@
 //! A model from a file, and its animation.
 
 use bevy::animation::graph::AnimationGraph;
-use bevy::gltf::GltfAssetLabel;
+use bevy::animation::{AnimatedBy, AnimationTargetId};
+use bevy::camera::primitives::Aabb;
+use bevy::camera::visibility::{DynamicSkinnedMeshBounds, VisibilityClass};
+use bevy::ecs::reflect::AppTypeRegistry;
+use bevy::gltf::{GltfAssetLabel, GltfExtras, GltfMaterialName, GltfMeshName, GltfSceneName};
+use bevy::mesh::skinning::SkinnedMesh;
 use bevy::prelude::*;
+use bevy::transform::components::TransformTreeChanged;
 use bevy::world_serialization::WorldInstanceReady;
 use std::path::PathBuf;
 
@@ -16,6 +22,7 @@ struct Plays(Handle<AnimationGraph>, AnimationNodeIndex);
 
 /// Loads it; once it is there it is [`Ready`].
 pub fn spawn(world: &mut World, path: PathBuf) -> Entity {
+    register(world);
     let server = world.resource::<AssetServer>();
     let walk = server.load(GltfAssetLabel::Animation(1).from_asset(path.clone()));
     let model = server.load(GltfAssetLabel::Scene(0).from_asset(path));
@@ -25,6 +32,18 @@ pub fn spawn(world: &mut World, path: PathBuf) -> Entity {
     let place =
         Transform::from_xyz(0.1, 0.0, 0.5).with_scale(Vec3::splat(0.01)).with_rotation(Quat::from_rotation_y(2.0));
     world.spawn((WorldAssetRoot(model), Plays(graph, index), place)).observe(start).id()
+}
+
+/// What models are made of. Bevy does this itself with its feature `reflect_auto_register`.
+fn register(world: &World) {
+    let mut types = world.resource::<AppTypeRegistry>().write();
+    macro_rules! register {
+        ($($component:ty),*) => { $(types.register::<$component>();)* };
+    }
+    register!(Transform, GlobalTransform, TransformTreeChanged, Visibility, InheritedVisibility, ViewVisibility);
+    register!(VisibilityClass, Name, ChildOf, Children, Aabb, Mesh3d, MeshMaterial3d<StandardMaterial>);
+    register!(SkinnedMesh, DynamicSkinnedMeshBounds, AnimationPlayer, AnimationTargetId, AnimatedBy);
+    register!(GltfExtras, GltfMaterialName, GltfMeshName, GltfSceneName);
 }
 
 fn start(
