@@ -7,6 +7,7 @@ use crate::mirror::Mirror;
 use crate::normals::{NormalTarget, Normals};
 use crate::shade::{Shade, Textures};
 use bevy::core_pipeline::prepass::ViewPrepassTextures;
+use bevy::core_pipeline::tonemapping::Tonemapping;
 use bevy::prelude::*;
 use bevy::render::camera::{ExtractedCamera, TemporalJitter};
 use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue, ViewQuery};
@@ -102,8 +103,14 @@ pub fn prepare(mut host: ResMut<Host>, mut changes: ResMut<Changes>, lights: Res
     errors.iter().for_each(|error| state.report(format!("umbrage does not see a change: {error}")));
 }
 
-type Of<'a> =
-    (&'a ExtractedView, &'a ExtractedCamera, &'a ViewTarget, &'a ViewPrepassTextures, Option<&'a TemporalJitter>);
+type Of<'a> = (
+    &'a ExtractedView,
+    &'a ExtractedCamera,
+    &'a ViewTarget,
+    &'a ViewPrepassTextures,
+    Option<&'a TemporalJitter>,
+    Option<&'a Tonemapping>,
+);
 
 /// Adds the lights that umbrage does to what a camera sees.
 pub fn draw(
@@ -113,7 +120,7 @@ pub fn draw(
     mut host: ResMut<Host>,
     mut context: RenderContext,
 ) {
-    let (seen, camera, target, textures, jitter) = view.into_inner();
+    let (seen, camera, target, textures, jitter, tonemapping) = view.into_inner();
     let entity = seen.retained_view_entity.main_entity.id();
     if !lights.cameras.contains(&entity) {
         return;
@@ -122,6 +129,17 @@ pub fn draw(
         return times.set(Vec::new());
     }
     let state = host.0.get_mut().unwrap_or_else(PoisonError::into_inner);
+    if camera.physical_viewport_size != camera.physical_target_size {
+        return state.report(format!(
+            "umbrage lights nothing for camera {entity}, whose viewport is a part of its target: give it a target of \
+             its own"
+        ));
+    }
+    if !camera.hdr && tonemapping.is_some_and(|method| *method != Tonemapping::None) {
+        state.report(format!(
+            "umbrage's light comes after camera {entity} has mapped tones: give it `Hdr`, or `Tonemapping::None`"
+        ));
+    }
     let picture = Picture { entity, camera: camera_view(seen, textures, jitter), exposure: camera.exposure, target };
     let done = state.draw(&picture, textures, &lights.lights, context.command_encoder());
     match done {
