@@ -55,7 +55,8 @@ pub struct Bench {
     /// Measure the wrong single-pass algorithm, too: one overlay for the shadows of all lights
     #[arg(long, requires = "lights_together")]
     overlay: bool,
-    /// Remove and insert again so many instances in every frame, and measure the CPU's time for that
+    /// Remove and insert again so many instances in every frame, and measure the CPU's time for
+    /// that
     #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "path")]
     churn: u32,
     /// Count fragments in one more frame, and the bytes that they move

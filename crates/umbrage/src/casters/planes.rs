@@ -4,7 +4,8 @@
 //! A part joins the first plane that holds it, in the order in which instances came, or starts a
 //! new one. Whatever comes and goes, the planes are those that this order gives: so who leaves
 //! takes a plane along that it started, and who is put between others may start one that these
-//! would have joined. All parts that may have to do with that are then put in planes anew; mostly none are.
+//! would have joined. All parts that may have to do with that are then put in planes anew; mostly
+//! none are.
 
 use super::geometry::MeshPart;
 use super::placed::Placed;
