@@ -82,7 +82,7 @@ impl Trees {
         self.top_data.clear();
         let mut order = Vec::with_capacity(boxes.len());
         append(&boxes, &mut self.top_data, &mut order);
-        // It ends the walk, or that would go on among the casters of an earlier frame.
+        // It ends the walk, which would continue among the casters of an earlier frame.
         self.top_data.push(TreeNode::default());
         self.placed_data.clear();
         self.placed_data.extend(order.iter().map(|i| records[*i as usize]));
