@@ -5,7 +5,7 @@ use crate::casters::Casters;
 use crate::fullscreen::target_texture;
 use crate::receivers::Receivers;
 use crate::technique::Technique;
-use crate::{Answer, Error, Gpu, RadianceTarget, Recorder, View, VisibilityTarget};
+use crate::{Answer, Error, Gpu, Passes, RadianceTarget, Recorder, View, VisibilityTarget};
 use umbrage_core::glam::{DAffine3, DMat3, DVec2, DVec3};
 use umbrage_core::rig::{Influence, Joint, Local, Node, Parts, Skin};
 use umbrage_core::{Camera, CameraView, Light, LightShape, Material, Pose, Rig, Scene, Texture, primitive};
@@ -53,7 +53,7 @@ pub fn warm_up(
     camera: &CameraView,
 ) -> Result<(), Error> {
     for is_crowded in [false, true] {
-        let world = World::new(gpu, receivers, is_crowded)?;
+        let mut world = World::new(gpu, receivers, is_crowded)?;
         for (eye, target) in EYES {
             let looking = Camera { eye, target, ..Camera::default() };
             let camera = CameraView::from_matrices(looking.view_from_world(), camera.clip_from_view);
@@ -86,23 +86,41 @@ impl World {
         })
     }
 
-    fn draw(&self, gpu: &Gpu, technique: &mut dyn Technique, light: &Light, camera: CameraView) -> Result<(), Error> {
-        let Self { casters, receivers, textures, .. } = self;
-        let view = View { camera, receivers, casters, light, textures };
-        let answer = technique.answer();
-        let prepared = technique.prepare(gpu, &view)?;
+    fn draw(
+        &mut self,
+        gpu: &Gpu,
+        technique: &mut dyn Technique,
+        light: &Light,
+        camera: CameraView,
+    ) -> Result<(), Error> {
         let mut recorder = Recorder::new(gpu);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let mut passes = recorder.begin(&mut encoder);
-        let recorded = match answer {
-            Answer::Visibility => prepared.record(&mut passes, &self.visibility),
-            Answer::Radiance => prepared.record_radiance(&mut passes, &self.radiance),
-        };
+        let recorded = self.record(gpu, &mut passes, technique, light, camera);
         passes.finish();
         recorded?;
         // Many drivers compile only when something is drawn.
         gpu.queue.submit([encoder.finish()]);
         Ok(())
+    }
+
+    fn record(
+        &mut self,
+        gpu: &Gpu,
+        passes: &mut Passes<'_>,
+        technique: &mut dyn Technique,
+        light: &Light,
+        camera: CameraView,
+    ) -> Result<(), Error> {
+        self.casters.record(passes)?;
+        let Self { casters, receivers, textures, visibility, radiance } = self;
+        let view = View { camera, receivers, casters, light, textures };
+        let answer = technique.answer();
+        let prepared = technique.prepare(gpu, &view)?;
+        match answer {
+            Answer::Visibility => prepared.record(passes, visibility),
+            Answer::Radiance => prepared.record_radiance(passes, radiance),
+        }
     }
 }
 
