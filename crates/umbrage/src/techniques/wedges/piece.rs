@@ -3,8 +3,8 @@
 use super::cuts::{CUTS, CutBuffer};
 use super::draws::{self, Draw};
 use super::pipelines::{Key, Making, Pipelines};
-use super::records::{GROUP, Needs, Round, WINDOW};
-use super::select::{CHUNK, Selection};
+use super::records::{CHUNK, GROUP, Needs, Round, WINDOW};
+use super::select::Selection;
 use super::tables::Term;
 use super::targets::{Buffers, SIDES, Target};
 use super::way::Way;

@@ -1,12 +1,14 @@
 //! Records and sizes that host and shaders share, see `record.wgsl` and `cuts.wgsl`.
 
-use super::select::CHUNK;
 use crate::shader::shader_struct;
 
 /// Bytes of the records of a wedge, of a bundle and of a cap.
 pub(super) const RECORD: u64 = 304;
 pub(super) const BUNDLE_RECORD: u64 = 112;
 pub(super) const CAP_RECORD: u64 = 128;
+
+/// Triangles that are looked at together, see `caps.wgsl`.
+pub(super) const CHUNK: u32 = 64;
 
 /// Bytes of the caps of a chunk.
 pub(super) const CAPS: u64 = CAP_RECORD * CHUNK as u64;

@@ -1,7 +1,7 @@
 //! Which casters cast shadows into the view, and from where each is counted.
 
 use super::cuts::{Touched, cut};
-use super::records::Cut;
+use super::records::{CHUNK, Cut};
 use crate::area_light::{Form, casters_in_view, may_touch};
 use crate::casters::{MeshEdges, Placed, before_eye};
 use crate::silhouettes::Throw;
@@ -20,9 +20,6 @@ const MOST_FLAT: f64 = 0.1;
 /// Sides end behind what is seen by this share of its size: more than the rasteriser's own rounding
 /// of corners amounts to.
 const BEHIND: f64 = 2e-3;
-
-/// Triangles that are looked at together, see `caps.wgsl`.
-pub(super) const CHUNK: u32 = 64;
 
 /// The casters of a frame. Keeps its memory.
 #[derive(Default)]
