@@ -96,8 +96,8 @@ impl LitPart {
     }
 }
 
-/// Between which x and which y a sphere lies: planes through the eye that touch it. Where it reaches
-/// behind the eye, the whole picture.
+/// Between which x and which y a sphere lies: planes through the eye that touch it. Where it
+/// reaches behind the eye, the whole picture.
 fn sphere(clip_from_relative: &DMat4, center: DVec3, radius: f64) -> [[f64; 2]; 2] {
     let w = clip_from_relative.row(3);
     [0, 1].map(|axis| tangents(clip_from_relative.row(axis), w, center, radius).unwrap_or([-1.0, 1.0]))

@@ -13,8 +13,8 @@ use umbrage_core::{Camera, CameraView, Light, LightShape, Material, Pose, Rig, S
 /// Pixels across and down of what is drawn.
 const SIZE: (u32, u32) = (8, 8);
 
-/// Places of the eye, and what it looks at: beside the casters, in the shadow of one, and there with
-/// that caster in view. Volumes are counted otherwise there.
+/// Places of the eye, and what it looks at: beside the casters, in the shadow of one, and there
+/// with that caster in view. Volumes are counted otherwise there.
 const EYES: [(DVec3, DVec3); 3] = [
     (DVec3::new(0.5, 2.0, 5.0), DVec3::ZERO),
     (DVec3::new(0.0, 0.3, 0.0), DVec3::Z),
@@ -124,8 +124,8 @@ impl World {
     }
 }
 
-/// A floor, a closed caster over it, an open one, one with an alpha mask and one that is posed. In a
-/// crowd a point may be in more shadows than a stencil counts.
+/// A floor, a closed caster over it, an open one, one with an alpha mask and one that is posed. In
+/// a crowd a point may be in more shadows than a stencil counts.
 fn scene(is_crowded: bool) -> Scene {
     let mut scene = Scene { rigs: vec![rig()], ..Scene::default() };
     let white =

@@ -187,7 +187,8 @@ impl Gpu {
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
     /// use wgpu::Features;
     /// # let stored: Option<Vec<u8>> = None;
-    /// # let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    /// # let own = wgpu::InstanceDescriptor::new_without_display_handle();
+    /// # let instance = wgpu::Instance::new(own);
     /// # let adapter = pollster::block_on(instance.request_adapter(&Default::default()))?;
     /// # let required_features = adapter.features() & Features::PIPELINE_CACHE;
     /// # let descriptor = wgpu::DeviceDescriptor { required_features, ..Default::default() };

@@ -148,7 +148,7 @@ fn layout(gpu: &Gpu, prefix: &str, lights: &[Lent]) -> wgpu::BindGroupLayout {
     let entries: Vec<_> = bindings(lights)
         .map(|(binding, bound)| wgpu::BindGroupLayoutEntry { binding, visibility, ty: bound.ty, count: None })
         .collect();
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(prefix), entries: &entries })
+    gpu.bind_group_layout(prefix, &entries)
 }
 
 fn bind(gpu: &Gpu, prefix: &str, layout: &wgpu::BindGroupLayout, lights: &[Lent]) -> wgpu::BindGroup {
