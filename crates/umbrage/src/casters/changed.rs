@@ -51,6 +51,6 @@ mod tests {
         assert_eq!(changed.take(), [5..40, 900..902]);
         assert!(changed.is_empty() && changed.take().is_empty());
         changed.push(7);
-        assert_eq!(changed.take(), [7..8]);
+        assert_eq!(changed.take(), vec![7..8]);
     }
 }

@@ -253,14 +253,14 @@ impl Casters {
     /// Places of instances that cast shadows, in the order in which they came.
     pub(crate) fn casting_places(&self) -> Vec<u32> {
         let casting = (0..).zip(&self.placed).filter(|(_, p)| p.casts);
-        let mut places = casting.map(|(place, _)| place).collect();
+        let mut places: Vec<u32> = casting.map(|(place, _)| place).collect();
         self.sort(&mut places);
         places
     }
 
     /// Puts places in the order in which their instances came, which does not depend on what was
     /// there before and has gone.
-    pub(crate) fn sort(&self, places: &mut Vec<u32>) {
+    pub(crate) fn sort(&self, places: &mut [u32]) {
         if self.in_order {
             places.sort_unstable();
         } else {

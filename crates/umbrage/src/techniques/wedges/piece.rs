@@ -7,7 +7,6 @@ use super::records::{CHUNK, GROUP, Needs, Round, WINDOW};
 use super::select::Selection;
 use super::tables::Term;
 use super::targets::{Buffers, SIDES, Target};
-use super::way::Way;
 use crate::area_light::{Form, Frame, ROUNDING};
 use crate::casters::Edges;
 use crate::receivers::Eye;
@@ -69,13 +68,14 @@ impl Piece {
         }
     }
 
-    /// Silhouettes of the chosen casters, and room for their wedges.
+    /// Silhouettes of the chosen casters, and room for their wedges: for all at once or for a round,
+    /// with bundles or without.
     pub fn prepare(
         &mut self,
         gpu: &Gpu,
         view: &View<'_>,
         pipelines: &mut Pipelines,
-        way: &dyn Way,
+        [at_once, bundles]: [bool; 2],
     ) -> Result<(), Error> {
         let style = Style { weighted: true, quads: true };
         let projection = (&view.camera.clip_from_world(), is_reversed(view));
@@ -83,14 +83,14 @@ impl Piece {
         self.silhouettes.prepare(gpu, view.casters, projection, self.form.center, throws, style)?;
         let needs = Needs { wedges: self.silhouettes.room(Part::PassSides), caps: self.selection.caps.len() as u32 };
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
-        (self.needs, self.round) = (needs, if way.at_once() { needs } else { needs.round(limit) });
+        (self.needs, self.round) = (needs, if at_once { needs } else { needs.round(limit) });
         if self.buffers.as_ref().is_none_or(|b| !b.hold(&self.round)) {
             self.buffers = Some(Buffers::new(gpu, pipelines, &self.round)?);
         }
         self.cuts.prepare(gpu, self.selection.cuts.len());
         pipelines.prepare_making(gpu, Making::Wedges { reversed: is_reversed(view) });
         pipelines.prepare_making(gpu, Making::Caps);
-        if way.bundles() {
+        if bundles {
             pipelines.prepare_making(gpu, Making::Bundles);
         }
         Ok(())

@@ -93,7 +93,7 @@ impl Wedges {
         let scales = self.scales();
         let pipelines = self.pipelines.get_or_insert_with(|| Pipelines::new(gpu, layout));
         for piece in &mut self.pieces {
-            piece.prepare(gpu, view, pipelines, &*self.way)?;
+            piece.prepare(gpu, view, pipelines, [self.way.at_once(), self.way.bundles()])?;
         }
         self.targets.truncate(scales.len());
         for (i, scale) in scales.iter().enumerate() {

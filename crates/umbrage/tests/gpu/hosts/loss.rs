@@ -47,32 +47,32 @@ fn whatever_needs_a_lost_device_says_so() {
     drop(baseline::floor(&gpu));
 }
 
-/// When an engine loses its device.
+/// Before what an engine loses its device.
 #[derive(Clone, Copy, Debug)]
 enum Moment {
-    BeforePreparing,
-    BeforeRecording,
-    BeforeSubmitting,
+    Preparing,
+    Recording,
+    Submitting,
 }
 
 #[test]
 fn a_frame_on_a_lost_device_says_so() {
     for info in techniques() {
-        for moment in [Moment::BeforePreparing, Moment::BeforeRecording, Moment::BeforeSubmitting] {
+        for moment in [Moment::Preparing, Moment::Recording, Moment::Submitting] {
             let mut host = Host::new(&scene("tentacles", 0.3), info.id, "");
             host.frame();
             host.pose(0.3);
             let device = host.gpu.device.clone();
             match moment {
-                Moment::BeforePreparing => device.destroy(),
-                Moment::BeforeRecording => host.between = Some(Box::new(move || device.destroy())),
-                Moment::BeforeSubmitting => {
+                Moment::Preparing => device.destroy(),
+                Moment::Recording => host.between = Some(Box::new(move || device.destroy())),
+                Moment::Submitting => {
                     let encoder = host.record().unwrap();
                     device.destroy();
                     host.submit(encoder);
                 }
             }
-            is_lost(&format!("{}, lost {moment:?}", info.id), host.record());
+            is_lost(&format!("{}, lost before {moment:?}", info.id), host.record());
         }
     }
 }

@@ -20,7 +20,7 @@ pub struct World {
 }
 
 fn picture(shade: u8) -> Texture {
-    let rgba = (0..64_u32).map(|i| [shade, 90, 60, if (i ^ i / 8) & 2 == 0 { 255 } else { 0 }]).collect();
+    let rgba = (0..64_u32).map(|i| [shade, 90, 60, if (i ^ (i / 8)) & 2 == 0 { 255 } else { 0 }]).collect();
     Texture { name: "net".into(), width: 8, height: 8, rgba, sampling: Sampling::default() }
 }
 
