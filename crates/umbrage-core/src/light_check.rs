@@ -60,7 +60,7 @@ fn usable_shape(shape: &LightShape) -> Result<LightShape, String> {
         }
         LightShape::Ellipsoid { position, radii, rotation } => {
             finite("is at", *position)?;
-            radii.to_array().into_iter().try_for_each(|radius| over_0("a half axis", radius))?;
+            radii.to_array().into_iter().try_for_each(|radius| at_least_0("a half axis", radius))?;
             let off = rotation.transpose() * *rotation - DMat3::IDENTITY;
             let is_rotation = off.to_cols_array().into_iter().all(|x| x.abs() < 1e-3) && rotation.determinant() > 0.0;
             if !is_rotation {
@@ -76,7 +76,7 @@ fn usable_shape(shape: &LightShape) -> Result<LightShape, String> {
             finite("is at", *position)?;
             make_unit("direction", direction)?;
             make_unit("up", up)?;
-            size.to_array().into_iter().try_for_each(|size| over_0("a side", size))?;
+            size.to_array().into_iter().try_for_each(|size| at_least_0("a side", size))?;
             if up.dot(*direction).abs() > UNIT {
                 let Some(across) = up.reject_from_normalized(*direction).try_normalize() else {
                     return Err(format!("has its up along its direction, {direction}; give it another one"));
@@ -95,11 +95,6 @@ fn usable_shape(shape: &LightShape) -> Result<LightShape, String> {
 /// `how`: `is at`, to be followed by the place.
 fn finite(how: &str, place: DVec3) -> Result<(), String> {
     if place.is_finite() { Ok(()) } else { Err(format!("{how} {place}; give it a finite place")) }
-}
-
-fn over_0(what: &str, size: f64) -> Result<(), String> {
-    at_least_0(what, size)?;
-    if size > 0.0 { Ok(()) } else { Err(format!("has {what} of 0 m; make it larger")) }
 }
 
 fn at_least_0(what: &str, size: f64) -> Result<(), String> {

@@ -177,6 +177,8 @@ impl Shot {
         if self.overlay.is_some() {
             renderer.set_overlay(self.overlay)?;
         }
+        // A light that lights nothing in view has pictures of its inside, too.
+        renderer.set_clipping(!matches!(self.aov, Aov::Inside(_)));
         renderer.frame(&scene.camera)?;
         Ok(match &self.aov {
             Aov::Color => Picture::Color(renderer.color()?),

@@ -39,6 +39,14 @@ const PLANES: &str = "planes";
 const TOO_LARGE: &str = "a buffer of edges, planes or vertices (techniques with maps need none; the limit is the \
                          device's max_storage_buffer_binding_size)";
 
+/// With the remedy.
+fn too_large(error: Error) -> Error {
+    match error {
+        Error::Size { size, limit, .. } => Error::Size { what: TOO_LARGE.into(), size, limit },
+        other => other,
+    }
+}
+
 /// The plane of a triangle that no edge has, such as a copy of another one.
 const LEFT_OUT: Vec4 = Vec4::new(0.0, 0.0, 0.0, -1.0);
 
@@ -146,8 +154,8 @@ impl Edges {
             }
         }
         let mut journal = Journal::default();
-        made.edges = Store::new(gpu, EDGES, 16, u64::from(made.parts[0].end()))?;
-        made.planes = Store::new(gpu, PLANES, 16, u64::from(made.parts[1].end()))?;
+        made.edges = Store::new(gpu, EDGES, 16, u64::from(made.parts[0].end())).map_err(too_large)?;
+        made.planes = Store::new(gpu, PLANES, 16, u64::from(made.parts[1].end())).map_err(too_large)?;
         all.iter().for_each(|new| made.write(&mut journal, new));
         journal.finish(gpu);
         made.bind(gpu, of_vertices)?;
@@ -168,8 +176,8 @@ impl Edges {
         self.remove(number);
         let mut new = Vec::new();
         self.add(number, of, &mut new)?;
-        self.edges.fit(gpu, u64::from(self.parts[0].end()), journal)?;
-        self.planes.fit(gpu, u64::from(self.parts[1].end()), journal)?;
+        self.edges.fit(gpu, u64::from(self.parts[0].end()), journal).map_err(too_large)?;
+        self.planes.fit(gpu, u64::from(self.parts[1].end()), journal).map_err(too_large)?;
         new.iter().for_each(|new| self.write(journal, new));
         Ok(())
     }

@@ -222,6 +222,18 @@ fn all_ways_of_drawing_agree() {
     }
 }
 
+/// Bodies end right behind what is seen, and no driver may lose them there.
+#[test]
+fn penumbrae_are_there_however_they_are_drawn() {
+    let gpu = gpu();
+    let scene = scene("primitives", 1.0);
+    for set in ["", "split-light=2", "batch=per-loop", "batch=per-wedge", "cull=stencil"] {
+        let s = against_truth(&gpu, &scene, 1, "wedges", set, (160, 120), 16);
+        // Without penumbrae it is 1 and 0.0178.
+        assert!(s.vs_hard < Some(0.25) && s.mae < 0.0035, "{set}: {s:?}");
+    }
+}
+
 #[test]
 #[ignore = "needs the shared references"]
 fn a_split_light_halves_the_error_of_a_single_silhouette() {

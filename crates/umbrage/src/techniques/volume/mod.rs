@@ -61,7 +61,8 @@ impl Configure for Volume {
 /// with. The views differ in nothing but the light.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for any other technique than `volume`, and as [`Technique::prepare_view`].
+/// [`Error::Unsupported`] for any other technique than `volume`, and as
+/// [`Technique::prepare_view`].
 pub fn record_overlay(
     volume: &mut dyn Technique,
     gpu: &Gpu,

@@ -68,8 +68,8 @@ impl Piece {
         }
     }
 
-    /// Silhouettes of the chosen casters, and room for their wedges: for all at once or for a round,
-    /// with bundles or without.
+    /// Silhouettes of the chosen casters, and room for their wedges: for all at once or for a
+    /// round, with bundles or without.
     pub fn prepare(
         &mut self,
         gpu: &Gpu,

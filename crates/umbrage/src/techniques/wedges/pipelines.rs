@@ -79,6 +79,12 @@ fn on(switch: bool) -> f64 {
     if switch { 1.0 } else { 0.0 }
 }
 
+/// Whether bodies can be compared with depth: they end right behind what is seen, and a rasteriser
+/// that shifts surfaces by more of a pixel would lose them there.
+pub(super) fn is_exact(gpu: &Gpu) -> bool {
+    gpu.snapping() <= 1.0 / 256.0
+}
+
 impl Pipelines {
     pub fn new(gpu: &Gpu, silhouettes: &wgpu::BindGroupLayout) -> Self {
         let compute = wgpu::ShaderStages::COMPUTE;
@@ -102,7 +108,7 @@ impl Pipelines {
             resolve_layout: layout(gpu, "covered shares", fragment, &[UNIFORM, UNIFORM, layers, UNIFORM]),
             depth_layout: layout(gpu, "depth of wedges", fragment, &[UNIFORM]),
             format: shares_format(gpu),
-            clamps: gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL),
+            clamps: gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL) && is_exact(gpu),
             silhouettes: silhouettes.clone(),
             making: Vec::new(),
             drawing: Vec::new(),

@@ -104,7 +104,12 @@ impl Target {
 impl Bench {
     /// Renderers for the first light of `scene`.
     pub fn new(gpu: &Gpu, scene: Scene, size: (u32, u32), sets: &[&str]) -> Self {
-        let made = sets.iter().map(|set| (set.to_string(), renderer_of(gpu, &scene, set, size)));
+        let made = sets.iter().map(|set| {
+            let mut renderer = renderer_of(gpu, &scene, set, size);
+            // What is left out is what the technique leaves out.
+            renderer.set_clipping(false);
+            (set.to_string(), renderer)
+        });
         Self { renderers: made.collect(), tracer: Tracer::new(&scene), scene, size }
     }
 

@@ -11,6 +11,7 @@ mod masked;
 
 pub(super) use draws::SHADERS;
 
+use super::pipelines::is_exact;
 use super::options::{Batch, Combine, Cull, ID, Wedges};
 use super::way::Way;
 use crate::{error::Error, gpu::Gpu};
@@ -25,7 +26,7 @@ use masked::Masked;
 pub(super) fn way(gpu: &Gpu, settings: &Wedges) -> Result<Option<Box<dyn Way>>, Error> {
     let Wedges { batch, cull, combine, .. } = *settings;
     let largest = combine == Combine::Max;
-    let stencil = cull == Cull::Stencil || (cull == Cull::Auto && batch == Batch::PerWedge);
+    let stencil = cull == Cull::Stencil || (cull == Cull::Auto && batch == Batch::PerWedge && is_exact(gpu));
     check(gpu, batch, largest, stencil)?;
     Ok(match batch {
         _ if largest => Some(Box::new(Apart::new(gpu, Kind::Largest))),
@@ -42,6 +43,9 @@ fn check(gpu: &Gpu, batch: Batch, largest: bool, stencil: bool) -> Result<(), Er
     }
     if stencil && (largest || batch == Batch::PerLoop) {
         return refuse("cull=stencil with loops or casters one by one; leave cull out");
+    }
+    if stencil && batch == Batch::PerWedge && !is_exact(gpu) {
+        return refuse("a stencil mask for single wedges on this adapter, which rasterises coarsely; set cull=shader");
     }
     if stencil && !gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL) {
         return refuse("a stencil mask on this adapter, which lacks DEPTH_CLIP_CONTROL; set cull=shader");
