@@ -11,8 +11,8 @@ mod masked;
 
 pub(super) use draws::SHADERS;
 
-use super::pipelines::is_exact;
 use super::options::{Batch, Combine, Cull, ID, Wedges};
+use super::pipelines::is_exact;
 use super::way::Way;
 use crate::{error::Error, gpu::Gpu};
 use apart::{Apart, Kind};
