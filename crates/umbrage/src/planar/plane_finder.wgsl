@@ -67,14 +67,27 @@ fn is_in_plane(shown: Shown, across: vec4f, normal: vec4f) -> bool {
     return is_near && along * along >= LEAST_COSINE * LEAST_COSINE * dot(n, n);
 }
 
-// The number of a pixel's plane; `finder.count` or more: none.
+// The distance of a pixel from a plane times its w, by which its planes are compared.
+fn off_plane(shown: Shown, across: vec4f) -> f32 {
+    return abs(dot(across, shown.ndc));
+}
+
+// The number of a pixel's plane, the nearest of those that it may be in; `finder.count`: none.
 fn find_plane(shown: Shown) -> u32 {
-    var plane = 0u;
-    for (; plane < finder.count; plane++) {
+    var found = finder.count;
+    var least = 1e30;
+    for (var plane = 0u; plane < finder.count; plane++) {
         let p = finder.planes[plane];
-        if is_in_plane(shown, p.across, vec4f(p.normal, p.snapped)) {
-            break;
-        }
+        let off = off_plane(shown, p.across);
+        let is_nearer = off < least && is_in_plane(shown, p.across, vec4f(p.normal, p.snapped));
+        found = select(found, plane, is_nearer);
+        least = select(least, off, is_nearer);
     }
-    return plane;
+    return found;
+}
+
+// Whether a pixel is nearer to one of the planes that the light shines on than to this one.
+fn is_nearer_to_another(shown: Shown, across: vec4f) -> bool {
+    let plane = find_plane(shown);
+    return plane < finder.count && off_plane(shown, finder.planes[plane].across) < off_plane(shown, across);
 }

@@ -55,7 +55,10 @@ impl Draws {
     /// Makes what receivers of this kind and size need.
     pub fn prepare(&mut self, gpu: &Gpu, receivers: &Receivers, normals: Normals) {
         if self.resolve.as_ref().is_none_or(|(made_for, _)| *made_for != normals) {
-            let of = |entries, compare, reads| self.resolving(gpu, entries, (compare, StencilOperation::Keep), reads);
+            let of = |entries, compare, reads| {
+                let how = [reads, normals.are_needed];
+                self.resolving(gpu, entries, (compare, StencilOperation::Keep), how)
+            };
             let marked = normals.are_there && normals.are_needed;
             let made = Resolve {
                 marked: of(["around", "dark"], CompareFunction::Equal, marked),
@@ -96,9 +99,10 @@ impl Draws {
         gpu: &Gpu,
         [vertex, fragment]: [&str; 2],
         stencil: (CompareFunction, StencilOperation),
-        has_normals: bool,
+        [has_normals, is_coarse]: [bool; 2],
     ) -> wgpu::RenderPipeline {
-        let constants = [("HAS_NORMALS", f64::from(u8::from(has_normals)))];
+        let switch = |on: bool| f64::from(u8::from(on));
+        let constants = [("HAS_NORMALS", switch(has_normals)), ("COARSE", switch(is_coarse))];
         gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(fragment),
             layout: Some(&self.resolve_layout),

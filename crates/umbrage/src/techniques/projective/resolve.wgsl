@@ -26,11 +26,18 @@ fn around_behind(@builtin(vertex_index) index: u32, @builtin(instance_index) num
     return rectangle(finder.behind[number], index);
 }
 
+// Where places are known so coarsely that a pixel may be in several planes, the nearest one counts.
+override COARSE: bool = false;
+
 fn is_dark(in: Plane, casts_only: bool) -> bool {
     let depth = textureLoad(receiver_depth, vec2i(in.position.xy), 0);
     let shown = shown_at(in.position.xy, depth);
     let is_there = depth != finder.eye.background_depth && (shown.surface.casts || !casts_only);
-    return is_there && is_in_plane(shown, in.across, in.normal);
+    let is_in = is_there && is_in_plane(shown, in.across, in.normal);
+    if !COARSE || !is_in {
+        return is_in;
+    }
+    return !is_nearer_to_another(shown, in.across);
 }
 
 // Where the stencil says that shadows fall.
