@@ -212,7 +212,10 @@ impl Cell<'_> {
     fn renderer(&self, technique: Box<dyn Technique>) -> Result<Renderer, Error> {
         let (width, height) = self.tracing.geometry.depth.size();
         let pass = LightPass { light: self.light, technique };
-        Ok(Renderer::new(self.gpu, &self.source.scene, width, height, vec![pass])?)
+        let mut renderer = Renderer::new(self.gpu, &self.source.scene, width, height, vec![pass])?;
+        // What is scored is the technique's own answer, whatever the light lights.
+        renderer.set_clipping(false);
+        Ok(renderer)
     }
 }
 

@@ -77,7 +77,11 @@ impl<'a> Stage<'a> {
             Some(renderer) => renderer,
             None => {
                 let resting = LightPass { light: 0, technique: baseline::floor(&self.gpu) };
-                Renderer::new(&self.gpu, &self.source.scene, self.size.0, self.size.1, vec![resting])?
+                let (width, height) = self.size;
+                let mut renderer = Renderer::new(&self.gpu, &self.source.scene, width, height, vec![resting])?;
+                // As in `cell.rs`.
+                renderer.set_clipping(false);
+                renderer
             }
         };
         Ok(self.renderer.insert(renderer))

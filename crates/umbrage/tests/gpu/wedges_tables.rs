@@ -61,6 +61,7 @@ fn picture(is_bright: impl Fn(u32, u32) -> bool) -> Texture {
 
 fn under(picture: Texture, position: DVec3, direction: DVec3, up: DVec3) -> Scene {
     let size = [1.2, 0.9].into();
+    let up = up.reject_from_normalized(direction).normalize();
     let mut scene = star(LightShape::Rect { position, direction, up, size, texture: Some(0) });
     scene.textures = vec![picture];
     scene
