@@ -16,6 +16,7 @@ use std::pin::pin;
 use std::sync::{Arc, OnceLock};
 use std::task::{Context, Poll, Waker};
 use watch::Watch;
+pub(crate) use watch::Watcher;
 
 /// A device with its queue, cheap to clone. Clones share what techniques compile; a host makes one
 /// for its device and clones that.
@@ -65,9 +66,10 @@ impl Gpu {
             .await
             .map_err(|e| Error::NoDevice { adapter: adapter.get_info().name, reason: e.to_string() })?;
         let gpu = Self::new(device, queue);
-        let watch = gpu.watch.clone();
+        // What a device calls must not keep it alive.
+        let watch = gpu.frames();
         gpu.device.on_uncaptured_error(Arc::new(move |e: wgpu::Error| watch.report(Error::Driver(e.to_string()))));
-        let watch = gpu.watch.clone();
+        let watch = gpu.frames();
         gpu.device.set_device_lost_callback(move |reason, text| {
             watch.report(Error::DeviceLost(format!("{reason:?} {text}").trim().to_string()));
         });
@@ -156,14 +158,9 @@ impl Gpu {
         self.watch.unsettle();
     }
 
-    /// Counts frames that were executed, of all recorders.
-    pub(crate) fn count_frame(&self) -> u64 {
-        self.watch.count_frame()
-    }
-
-    /// This frame of a recorder was executed after one that was recorded later.
-    pub(crate) fn overtaken(&self, frame: u64, by: u64) {
-        self.watch.fault(Error::Order { frame, by });
+    /// For what the device calls when something has happened.
+    pub(crate) fn frames(&self) -> Watcher {
+        Watcher::of(&self.watch)
     }
 
     /// Waits until all work that was submitted before is done. In a browser it is told by itself;

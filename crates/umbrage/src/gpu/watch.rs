@@ -3,7 +3,7 @@
 
 use crate::error::Error;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
 /// Shared by everything that uses a device.
 #[derive(Debug)]
@@ -16,6 +16,36 @@ pub(super) struct Watch {
     probe: Mutex<wgpu::Buffer>,
     executed: AtomicU64,
     is_unsettled: AtomicBool,
+}
+
+/// Of a device that may be gone: what it calls itself must not keep it alive, since a device that
+/// goes first waits for what it has to do.
+#[derive(Clone, Debug)]
+pub(crate) struct Watcher(Weak<Watch>);
+
+impl Watcher {
+    pub(super) fn of(watch: &Arc<Watch>) -> Self {
+        Self(Arc::downgrade(watch))
+    }
+
+    /// See [`Watch::report`].
+    pub fn report(&self, error: Error) {
+        if let Some(watch) = self.0.upgrade() {
+            watch.report(error);
+        }
+    }
+
+    /// Counts frames that were executed, of all recorders.
+    pub fn count(&self) -> u64 {
+        self.0.upgrade().map_or(0, |watch| watch.count_frame())
+    }
+
+    /// This frame of a recorder was executed after one that was recorded later.
+    pub fn overtaken(&self, frame: u64, by: u64) {
+        if let Some(watch) = self.0.upgrade() {
+            watch.fault(Error::Order { frame, by });
+        }
+    }
 }
 
 impl Watch {

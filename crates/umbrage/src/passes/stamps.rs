@@ -1,7 +1,7 @@
 //! The stamps of frames, see [`super::kept`].
 
 use super::kept::Frame;
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, Watcher};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -43,14 +43,14 @@ impl Stamps {
                 mapped_at_creation: false,
             })
         });
-        Stamp { buffer, gpu: self.gpu.clone(), frame: frame.clone(), shared: self.shared.clone(), is_known: false }
+        Stamp { buffer, frames: self.gpu.frames(), frame: frame.clone(), shared: self.shared.clone(), is_known: false }
     }
 }
 
 /// A frame whose encoder is under way: where it goes without being read back, the frame is lost.
 pub(super) struct Stamp {
     pub buffer: wgpu::Buffer,
-    gpu: Gpu,
+    frames: Watcher,
     frame: Arc<Frame>,
     shared: Arc<Shared>,
     is_known: bool,
@@ -76,10 +76,10 @@ impl Stamp {
         self.is_known = found.is_ok_and(|found| found[..] == self.bytes());
         self.buffer.unmap();
         if self.is_known {
-            self.frame.executed(self.gpu.count_frame());
+            self.frame.executed(self.frames.count());
             let newest = self.shared.newest.fetch_max(self.frame.number, Ordering::AcqRel);
             if newest > self.frame.number {
-                self.gpu.overtaken(self.frame.number, newest);
+                self.frames.overtaken(self.frame.number, newest);
             }
         }
     }
