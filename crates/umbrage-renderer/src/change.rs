@@ -29,8 +29,10 @@ impl Renderer {
     /// its light where it is.
     ///
     /// # Errors
-    /// [`Error::Scene`] where there is no such pass.
+    /// [`Error::Scene`] where there is no such pass, and where a [pool](Renderer::pool_maps) has its
+    /// maps.
     pub fn set_technique(&mut self, pass: usize, technique: Box<dyn Technique>) -> Result<(), Error> {
+        self.check_no_pool(pass)?;
         let lit = self.lights.get_mut(pass).ok_or_else(|| no_pass(pass))?;
         let targets = (self.targets.size(), self.one_target.as_ref());
         lit.exchange(&self.gpu, &self.shading, technique, targets).map(|_| ())
@@ -61,8 +63,10 @@ impl Renderer {
     /// targets and pipelines stay; the light is as the scene has it.
     ///
     /// # Errors
-    /// [`Error::Scene`] where there is no such pass or light, and for a light of another pass.
+    /// [`Error::Scene`] where there is no such pass or light, for a light of another pass, and where
+    /// a [pool](Renderer::pool_maps) has the maps.
     pub fn exchange(&mut self, pass: usize, new: LightPass) -> Result<LightPass, Error> {
+        self.check_no_pool(pass)?;
         if self.lights.iter().enumerate().any(|(i, other)| i != pass && other.number == new.light) {
             return Err(twice(new.light));
         }
@@ -72,6 +76,16 @@ impl Renderer {
         let technique = lit.exchange(&self.gpu, &self.shading, new.technique, targets)?;
         lit.light = light;
         Ok(LightPass { light: std::mem::replace(&mut lit.number, new.light), technique })
+    }
+
+    /// A pool makes techniques anew of the settings that it knows.
+    fn check_no_pool(&self, pass: usize) -> Result<(), Error> {
+        match self.pool {
+            Some(_) => {
+                Err(Error::Scene(format!("the maps of pass {pass} are in a pool; change the pass by `set_settings`")))
+            }
+            None => Ok(()),
+        }
     }
 
     /// Records with `new` from the next frame on and gives back what was in use. Upload memory goes

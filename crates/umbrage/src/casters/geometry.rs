@@ -111,15 +111,7 @@ impl Geometry {
     /// Adds a mesh; its number.
     pub fn add(&mut self, gpu: &Gpu, journal: &mut Journal, mesh: &Mesh) -> Result<u32, Error> {
         check(mesh)?;
-        let (vertices, indices) = (mesh.positions.len(), mesh.indices.len());
-        let [mut vertices, mut indices] = self.take(gpu, journal, [vertices, indices])?;
-        let weights = match self.take_weights(gpu, journal, mesh) {
-            Ok(weights) => weights,
-            Err(e) => {
-                self.give_back([&mut vertices, &mut indices]);
-                return Err(e);
-            }
-        };
+        let [vertices, indices, weights] = self.take_all(gpu, journal, mesh)?;
         let number = self.slot();
         self.changes += 1;
         self.meshes[number as usize] = MeshPart {
@@ -134,6 +126,18 @@ impl Geometry {
         self.fill(journal, number, mesh);
         self.write_triangles(journal, number, mesh);
         Ok(number)
+    }
+
+    /// Room for the vertices, indices and weights of a mesh: for all or none.
+    fn take_all(&mut self, gpu: &Gpu, journal: &mut Journal, mesh: &Mesh) -> Result<[Range<u32>; 3], Error> {
+        let [mut vertices, mut indices] = self.take(gpu, journal, [mesh.positions.len(), mesh.indices.len()])?;
+        match self.take_weights(gpu, journal, mesh) {
+            Ok(weights) => Ok([vertices, indices, weights]),
+            Err(e) => {
+                self.give_back([&mut vertices, &mut indices]);
+                Err(e)
+            }
+        }
     }
 
     /// Adds vertices for an instance whose mesh is bent; as they are filled by the GPU.
@@ -166,8 +170,7 @@ impl Geometry {
     /// Puts another mesh in the place of one, which stays as it is where there is an error.
     pub fn replace(&mut self, gpu: &Gpu, journal: &mut Journal, number: u32, mesh: &Mesh) -> Result<(), Error> {
         check(mesh)?;
-        let [vertices, indices] = self.take(gpu, journal, [mesh.positions.len(), mesh.indices.len()])?;
-        let weights = self.take_weights(gpu, journal, mesh)?;
+        let [vertices, indices, weights] = self.take_all(gpu, journal, mesh)?;
         let part = &mut self.meshes[number as usize];
         let old = [&mut part.vertices, &mut part.indices, &mut part.weights].map(std::mem::take);
         (part.first_index, part.base_vertex) = (indices.start, vertices.start);

@@ -6,7 +6,9 @@ use crate::{error::Error, passes::Passes};
 impl Casters {
     /// Sends all that has changed since the last time, and moves the vertices of all instances that
     /// [`Casters::set_pose`] bent: once a frame, before anything of it is drawn and before
-    /// techniques are prepared. Costs what has changed; nothing, where nothing has.
+    /// techniques are prepared. Costs what has changed; nothing, where nothing has. Where the box
+    /// around everything crosses a power of two of metres, or moves away, all instances are sent
+    /// and all maps are drawn anew: things that hold the scene's extent avoid that.
     ///
     /// A host that drops the encoder loses nothing: the next call records it again.
     ///
@@ -90,6 +92,7 @@ impl Casters {
         // Where they do not fit a shader, techniques that ask for edges say why.
         if self.edges.get_mut().is_some_and(|edges| edges.bind(&self.gpu, of_vertices).is_err()) {
             self.edges.take();
+            self.version = next_version();
         }
     }
 }

@@ -4,8 +4,8 @@ use umbrage_core::glam::DVec3;
 use umbrage_core::{Bounds, scene_tree::SceneTree};
 
 /// A cube around a scene. It depends on nothing but the box around everything, and hardly on that:
-/// it stays while casters come and go, until the box is twice as large, half as large, or
-/// elsewhere.
+/// it stays while casters come and go, until the box's longest edge crosses a power of two, or the
+/// box is elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Region {
     /// What GPU world space is relative to.

@@ -80,7 +80,10 @@ impl Store {
             return Ok(false);
         }
         self.check(count)?;
-        let most = self.limit / self.stride;
+        // Shaders bind whole buffers: room to spare is not to be what keeps them from it.
+        let bound = gpu.device.limits().max_storage_buffer_binding_size.min(self.limit);
+        let limit = if count * self.stride <= bound { bound } else { self.limit };
+        let most = ((limit & !15) / self.stride).max(count);
         let larger = buffer(gpu, self.what, (count + count / 2).min(most) * self.stride, self.usage);
         journal.copy(&self.buffer, &larger);
         self.buffer = larger;

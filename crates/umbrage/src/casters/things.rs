@@ -3,8 +3,9 @@
 use super::check::check;
 use super::ids::{InstanceId, MaterialId, MeshId, TextureId};
 use super::instances::Numbered;
+use super::material::Look;
 use super::placed::Wanted;
-use super::world::Casters;
+use super::world::{Casters, next_version};
 use crate::{error::Error, gpu::Gpu};
 use umbrage_core::{Material, Mesh, Scene, Texture};
 
@@ -98,7 +99,7 @@ impl Casters {
     ///
     /// # Errors
     /// [`Error::Handle`] for one that is not there; as [`Casters::add_mesh`]; [`Error::Scene`]
-    /// where an instance has too few joints for it. The mesh stays as it is then.
+    /// while joints bend one of its instances. The mesh stays as it is then.
     pub fn replace_mesh(&mut self, mesh: MeshId, by: &Mesh) -> Result<(), Error> {
         let number = self.geometry.slots.find(mesh.0)?;
         let is_posed = |place: &u32| self.placed[*place as usize].posed;
@@ -113,8 +114,7 @@ impl Casters {
     }
 
     /// Moves the vertices of a mesh. `to` has the same triangles, and as many vertices; this is
-    /// cheaper than [`Casters::replace_mesh`], since nothing moves in memory and no triangle is
-    /// sent.
+    /// cheaper than [`Casters::replace_mesh`], since nothing moves in memory.
     ///
     /// # Errors
     /// [`Error::Handle`] for one that is not there; [`Error::Scene`] for other triangles or another
@@ -208,7 +208,9 @@ impl Casters {
     pub fn replace_texture(&mut self, texture: TextureId, by: &Texture) -> Result<(), Error> {
         let number = self.appearance.texture_slots.find(texture.0)?;
         self.appearance.replace_texture(&self.gpu, number, by)?;
-        let looks = (0..).zip(&self.appearance.looks).filter(|(_, look)| look.texture == Some(number));
+        // What is opaque casts the same, whatever its picture.
+        let is_masked = |look: &Look| look.masked && look.texture == Some(number);
+        let looks = (0..).zip(&self.appearance.looks).filter(|(_, look)| is_masked(look));
         let materials: Vec<u32> = looks.map(|(material, _)| material).collect();
         materials.into_iter().for_each(|material| self.follow_material(material));
         Ok(())
@@ -250,6 +252,7 @@ impl Casters {
         let of = (&*self.geometry.meshes, &self.poses);
         if edges.set(&self.gpu, &mut self.journal, number, of).is_err() {
             self.edges.take();
+            self.version = next_version();
         }
     }
 }

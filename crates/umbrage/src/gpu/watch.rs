@@ -92,6 +92,9 @@ impl Watch {
     /// A device that is there maps later, one that is lost refuses at once. In a browser nothing is
     /// told at once, and all is taken to go well.
     fn answers(&self) -> bool {
+        if cfg!(target_family = "wasm") {
+            return true;
+        }
         let probe = lock(&self.probe);
         let refused = Arc::new(AtomicBool::new(false));
         let told = refused.clone();

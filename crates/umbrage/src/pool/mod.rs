@@ -166,9 +166,10 @@ impl Member {
         Ok(())
     }
 
-    /// What moves takes more, for instance, than what stands still.
-    fn learn(&mut self, bytes: u64) {
-        self.share.extra += bytes.saturating_sub(self.share.bytes(self.size));
+    /// What moves takes more, for instance, than what stands still; and no more once it rests.
+    fn learn(&mut self, held: u64) {
+        let known = self.share.price.of(self.size) + self.share.extra;
+        (self.share.more, self.share.at) = (held.saturating_sub(known), self.size);
     }
 
     fn resize(&mut self, gpu: &Gpu, light: &mut PooledLight<'_>, size: u32) -> Result<(), Error> {

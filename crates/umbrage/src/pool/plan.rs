@@ -10,6 +10,10 @@ pub(super) struct Share {
     pub price: Price,
     /// What this light takes beyond that, whatever the size.
     pub extra: u64,
+    /// What it took beyond that when it was last seen, with maps of the size `at`: such as a store
+    /// for what moves.
+    pub more: u64,
+    pub at: u32,
     /// What it takes without maps.
     pub idle: u64,
 }
@@ -56,7 +60,10 @@ impl Price {
 impl Share {
     /// Bytes with maps of this size.
     pub fn bytes(&self, size: u32) -> u64 {
-        if size == 0 { self.idle } else { self.price.of(size) + self.extra }
+        // Of what was seen besides, smaller maps take less; larger ones are counted in the next frame.
+        let part = (f64::from(size) / f64::from(self.at.max(1))).min(1.0).powi(2);
+        let more = (self.more as f64 * part).ceil() as u64;
+        if size == 0 { self.idle } else { self.price.of(size) + self.extra + more }
     }
 }
 
@@ -94,7 +101,7 @@ mod tests {
 
     fn cube(wanted: u32) -> Share {
         let price = Price::new(TRIED.map(|size| 1000 + 24 * u64::from(size).pow(2)));
-        Share { wanted, price, extra: 0, idle: 10 }
+        Share { wanted, price, idle: 10, ..Share::default() }
     }
 
     fn divided(shares: &[Share], bytes: u64) -> Option<Vec<u32>> {

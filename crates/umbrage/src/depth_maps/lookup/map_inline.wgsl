@@ -10,8 +10,10 @@ const INTERPOLATED: f32 = 5e-7;
 fn receiver(position: vec3f, seen: Surface) -> Pixel {
     let place = vec4f(position, 1.0);
     let clip = map.ndc_from_eye * place;
-    let at = floor((clip.xy / clip.w - vec2f(-1.0, 1.0)) / map.eye.ndc_from_pixel) + 0.5;
     let sum = dot(abs(position), vec3f(1.0));
+    // What is in the plane of the eye has no pixel: any will do.
+    let w = select(clip.w, 1.0, abs(clip.w) <= 1e-6 * sum + 1e-20);
+    let at = floor((clip.xy / w - vec2f(-1.0, 1.0)) / map.eye.ndc_from_pixel) + 0.5;
     return Pixel(at, true, place, 1.0, seen, INTERPOLATED * sum, off_surface(map.eye, seen.normal, clip.w));
 }
 

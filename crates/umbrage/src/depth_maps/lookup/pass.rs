@@ -126,10 +126,10 @@ impl Lookup {
     /// Chooses the pipelines of this frame.
     fn choose(&mut self, gpu: &Gpu, view: &View<'_>, maps: &MapFrame, input: &mut LookupInput) {
         input.current = None;
+        input.pixels = view.lit_pixels();
         input.in_eye.data = MapLookup::new(view, maps, input.bias, Space::Eye);
         let Some(texture) = maps.texture.as_ref().filter(|_| !maps.views.is_empty()) else { return };
         input.data = MapLookup::new(view, maps, input.bias, Space::Ndc);
-        input.pixels = view.lit_pixels();
         let perspective = maps.is_from_a_point();
         let linear = maps.is_linear;
         let round = is_round(&view.light.shape);
@@ -151,8 +151,7 @@ impl Lookup {
     }
 
     /// Writes 1 where the light lights nothing, and everywhere where there is nothing to look up.
-    /// `more` is what the technique binds as
-    /// group 2. Returns the number of draws.
+    /// `more` is what the technique binds as group 2. Returns the number of draws.
     pub fn record(
         &self,
         passes: &mut Passes<'_>,

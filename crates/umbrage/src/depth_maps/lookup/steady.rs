@@ -21,7 +21,7 @@ pub(super) fn share_first(views: &[LightView], layers: &mut [MapLayer]) {
 }
 
 /// Of a layer that was not rendered: every point is outside of its map.
-const OUTSIDE: [f32; 4] = [0.0, 0.0, -1.0, -1.0];
+pub(super) const OUTSIDE: [f32; 4] = [0.0, 0.0, -1.0, -1.0];
 
 /// See `map_layers.wgsl`.
 fn from_first(first: &LightView, view: &LightView) -> [f32; 4] {

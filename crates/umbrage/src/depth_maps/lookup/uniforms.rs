@@ -2,7 +2,7 @@
 
 use super::extent::LightExtent;
 use super::layer::MapLayer;
-use super::steady::share_first;
+use super::steady::{OUTSIDE, share_first};
 use crate::depth_maps::frame::MapFrame;
 use crate::depth_maps::layers::{LAYER_CONSTANTS, MOST_LAYERS};
 use crate::depth_maps::setup::Bias;
@@ -52,7 +52,8 @@ impl MapLookup {
         };
         // A layer that was not rendered sends every point outside of the map, where all is lit.
         let outside = DMat4::from_cols(DVec4::ZERO, DVec4::ZERO, DVec4::ZERO, DVec4::new(-1.0, -1.0, 0.0, 1.0));
-        let mut layers = [MapLayer { map_from_place: matrix(&outside), ..MapLayer::default() }; MOST_LAYERS];
+        let nothing = MapLayer { map_from_place: matrix(&outside), from_first: OUTSIDE, ..MapLayer::default() };
+        let mut layers = [nothing; MOST_LAYERS];
         let world_from_place = DMat4::from_translation(view.camera.eye) * eye_from_place;
         for v in &maps.views {
             layers[v.layer as usize] = MapLayer::of(v, &world_from_place, &maps.scene.casters);
