@@ -29,8 +29,8 @@ impl Renderer {
     /// its light where it is.
     ///
     /// # Errors
-    /// [`Error::Scene`] where there is no such pass, and where a [pool](Renderer::pool_maps) has its
-    /// maps.
+    /// [`Error::Scene`] where there is no such pass, and where a pool has its maps, see
+    /// [`Renderer::pool_maps`].
     pub fn set_technique(&mut self, pass: usize, technique: Box<dyn Technique>) -> Result<(), Error> {
         self.check_no_pool(pass)?;
         let lit = self.lights.get_mut(pass).ok_or_else(|| no_pass(pass))?;
@@ -63,8 +63,8 @@ impl Renderer {
     /// targets and pipelines stay; the light is as the scene has it.
     ///
     /// # Errors
-    /// [`Error::Scene`] where there is no such pass or light, for a light of another pass, and where
-    /// a [pool](Renderer::pool_maps) has the maps.
+    /// [`Error::Scene`] where there is no such pass or light, for a light of another pass, and
+    /// where a pool has the maps.
     pub fn exchange(&mut self, pass: usize, new: LightPass) -> Result<LightPass, Error> {
         self.check_no_pool(pass)?;
         if self.lights.iter().enumerate().any(|(i, other)| i != pass && other.number == new.light) {

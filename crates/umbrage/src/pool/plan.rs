@@ -60,7 +60,7 @@ impl Price {
 impl Share {
     /// Bytes with maps of this size.
     pub fn bytes(&self, size: u32) -> u64 {
-        // Of what was seen besides, smaller maps take less; larger ones are counted in the next frame.
+        // Of what was seen besides, smaller maps take less; larger ones count in the next frame.
         let part = (f64::from(size) / f64::from(self.at.max(1))).min(1.0).powi(2);
         let more = (self.more as f64 * part).ceil() as u64;
         if size == 0 { self.idle } else { self.price.of(size) + self.extra + more }
