@@ -13,6 +13,7 @@ pub(super) struct Watch {
     /// The newest fault of the host that it has not heard of.
     fault: Mutex<Option<Error>>,
     /// Mapped for a moment, which only a device that is lost refuses.
+    #[cfg(not(target_family = "wasm"))]
     probe: Mutex<wgpu::Buffer>,
     executed: AtomicU64,
     is_unsettled: AtomicBool,
@@ -49,17 +50,18 @@ impl Watcher {
 }
 
 impl Watch {
+    #[cfg_attr(target_family = "wasm", expect(unused_variables, reason = "nothing is tried in a browser"))]
     pub fn new(device: &wgpu::Device) -> Self {
-        let probe = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("whether the device is there"),
-            size: 8,
-            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
         Self {
             trouble: Mutex::default(),
             fault: Mutex::default(),
-            probe: Mutex::new(probe),
+            #[cfg(not(target_family = "wasm"))]
+            probe: Mutex::new(device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("whether the device is there"),
+                size: 8,
+                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })),
             executed: AtomicU64::new(0),
             is_unsettled: AtomicBool::new(false),
         }
@@ -91,10 +93,8 @@ impl Watch {
 
     /// A device that is there maps later, one that is lost refuses at once. In a browser nothing is
     /// told at once, and all is taken to go well.
+    #[cfg(not(target_family = "wasm"))]
     fn answers(&self) -> bool {
-        if cfg!(target_family = "wasm") {
-            return true;
-        }
         let probe = lock(&self.probe);
         let refused = Arc::new(AtomicBool::new(false));
         let told = refused.clone();
@@ -104,6 +104,11 @@ impl Watch {
             probe.unmap();
         }
         !is_refused
+    }
+
+    #[cfg(target_family = "wasm")]
+    fn answers(&self) -> bool {
+        true
     }
 
     /// For [`Watch::take_fault`].
