@@ -1,22 +1,12 @@
 //! The world as a scene of umbrage: to trace rays in it, or to save it.
 
 use crate::convert;
+use crate::extract::Caster;
 use bevy::ecs::system::SystemState;
-use bevy::light::{NotShadowCaster, NotShadowReceiver};
-use bevy::mesh::skinning::{SkinnedMesh, SkinnedMeshInverseBindposes};
+use bevy::mesh::skinning::SkinnedMeshInverseBindposes;
 use bevy::prelude::*;
 use umbrage::core::glam::DAffine3;
 use umbrage::core::{Instance, Material, Scene};
-
-type Meshes<'a> = (
-    &'a Mesh3d,
-    Option<&'a MeshMaterial3d<StandardMaterial>>,
-    &'a GlobalTransform,
-    &'a InheritedVisibility,
-    Has<NotShadowCaster>,
-    Has<NotShadowReceiver>,
-    Option<&'a SkinnedMesh>,
-);
 
 /// Everything that a [`crate::UmbrageLight`] would see of the main world, each skinned mesh as its
 /// joints hold it now. Lights and camera are left to the caller.
@@ -25,7 +15,7 @@ type Meshes<'a> = (
 /// The world lacks resources of Bevy's renderer.
 pub fn scene(world: &mut World) -> Result<Scene> {
     let mut state: SystemState<(
-        Query<Meshes>,
+        Query<Caster>,
         Query<&GlobalTransform>,
         Res<Assets<Mesh>>,
         Res<Assets<StandardMaterial>>,

@@ -1,5 +1,5 @@
 //! What casts shadows and what they fall on: whatever has changed of it since the last frame is
-//! copied to the render world, and nothing else.
+//! copied to the render world, and that alone.
 
 use crate::convert;
 use bevy::asset::{AssetEvent, AssetId, Assets};
@@ -62,7 +62,7 @@ struct Known {
     waiting: EntityHashSet,
 }
 
-type Caster<'a> = (
+pub(crate) type Caster<'a> = (
     &'a Mesh3d,
     Option<&'a MeshMaterial3d<StandardMaterial>>,
     &'a GlobalTransform,

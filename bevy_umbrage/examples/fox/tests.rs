@@ -95,13 +95,13 @@ type Change = fn(&mut World);
 const CHANGES: [(Change, &str); 9] = [
     (|_| (), "nothing"),
     (move_block, "the block is elsewhere"),
-    (|world| drop(named(world, "globe").insert(NotShadowCaster)), "the globe casts nothing"),
-    (|world| drop(named(world, "globe").remove::<NotShadowCaster>()), "it does again"),
+    (|world| _ = named(world, "globe").insert(NotShadowCaster), "the globe casts nothing"),
+    (|world| _ = named(world, "globe").remove::<NotShadowCaster>(), "it does again"),
     (swell_globe, "the globe has another mesh"),
     (|world| named(world, "column").despawn(), "a column is gone"),
     (close_lattice, "the lattice lets no light through"),
-    (|world| drop(named(world, "fox").insert(Visibility::Hidden)), "the fox is hidden"),
-    (|world| drop(named(world, "floor").insert(NotShadowReceiver)), "nothing falls on the floor"),
+    (|world| _ = named(world, "fox").insert(Visibility::Hidden), "the fox is hidden"),
+    (|world| _ = named(world, "floor").insert(NotShadowReceiver), "nothing falls on the floor"),
 ];
 
 fn named<'w>(world: &'w mut World, name: &str) -> EntityWorldMut<'w> {

@@ -1,5 +1,5 @@
 //! All that has the size of the picture: textures, and bind groups of them. A new size makes these
-//! anew and nothing else.
+//! anew, and that alone.
 
 use crate::{shading::Shading, tonemap::ToneMap};
 use umbrage::{Error, Gpu, Receivers, fullscreen::target_texture};

@@ -4,7 +4,7 @@
 mod city;
 
 use city::{BUDGET, city, measure};
-use umbrage::core::glam::DVec3;
+use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Camera, Light, Scene};
 use umbrage::{Gpu, Settings};
 use umbrage_renderer::{LightPass, Renderer};
@@ -63,6 +63,27 @@ fn maps_of_many_lights_stay_within_the_budget() {
         }
         assert!(all[0] < all[1], "{technique}: more bytes are larger maps, {all:?}");
     }
+}
+
+/// Of lights under which something has moved, maps are there twice. Others make room for that, by
+/// one step of their sizes at most.
+#[test]
+fn what_moves_makes_maps_no_smaller_than_it_has_to() {
+    let (gpu, scene) = (gpu(), city(0.3, 16).unwrap());
+    let mut renderer = pooled(&gpu, &scene, "pcf:size=512", 16 << 20);
+    let mut frame = |moved: f64| {
+        let instance = renderer.casters().instance(20).unwrap();
+        let place = DAffine3::from_translation(DVec3::Y * moved) * scene.instances[20].world_from_mesh;
+        renderer.casters_mut().move_instance(instance, &place).unwrap();
+        renderer.frame(&scene.camera).unwrap();
+        (sizes(&renderer, 16), bytes(&renderer, 16))
+    };
+    (0..2).for_each(|_| drop(frame(0.0)));
+    let (still, _) = frame(0.0);
+    (1..6).for_each(|step| drop(frame(0.1 * f64::from(step))));
+    let (moved, held) = frame(0.6);
+    assert!(still.iter().zip(&moved).all(|(still, moved)| 2 * moved >= *still), "{still:?}, {moved:?}");
+    assert!(still != moved && held <= 16 << 20, "{held} bytes, {moved:?}");
 }
 
 #[test]

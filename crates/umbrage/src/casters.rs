@@ -3,7 +3,7 @@
 //! All meshes share one vertex and one index buffer. Instances lie in a storage buffer, relative to
 //! the middle of the scene, so that single precision is enough wherever the scene is. A draw is one
 //! mesh with a list of instance numbers as its per-instance vertex buffer: culling writes that list
-//! and nothing else.
+//! alone.
 
 mod batches;
 mod before_eye;
@@ -24,6 +24,8 @@ mod placed;
 mod places;
 mod planes;
 mod poses;
+#[cfg(test)]
+mod read_back;
 mod record;
 mod region;
 mod seen;

@@ -16,7 +16,7 @@ pub struct Corner {
 pub fn casters() -> Scene {
     let mut scene = Scene::default();
     let material = scene.add_material(Material::default());
-    let [plane, cube, ball] =
+    let [plane, cube, sphere] =
         [primitive::plane(), primitive::cube(), primitive::sphere(32, 16)].map(|mesh| scene.add_mesh(mesh));
     let at = |x, y, z| DAffine3::from_translation(DVec3::new(x, y, z));
     let sized = |x, y, z| DAffine3::from_scale(DVec3::new(x, y, z));
@@ -24,7 +24,7 @@ pub fn casters() -> Scene {
     scene.place(cube, material, at(-2.0, 1.1, 0.1) * DAffine3::from_rotation_y(0.4) * sized(0.6, 2.2, 0.6));
     scene.place(cube, material, at(-2.1, 0.6, 1.6) * sized(0.3, 1.2, 0.3));
     scene.place(cube, material, at(0.9, 0.35, -2.0) * DAffine3::from_rotation_y(0.9) * sized(0.7, 0.7, 0.7));
-    scene.place(ball, material, at(1.1, 0.5, 0.1) * sized(0.5, 0.5, 0.5));
+    scene.place(sphere, material, at(1.1, 0.5, 0.1) * sized(0.5, 0.5, 0.5));
     scene
 }
 

@@ -1,8 +1,11 @@
 //! How many fragments passes draw, and what these touch in their attachments.
 
 use super::{Owner, queries::Queries};
+#[cfg(not(target_family = "wasm"))]
 use crate::fullscreen::{Fullscreen, attachment, target_texture};
-use crate::{gpu::Gpu, shader::Shader};
+use crate::gpu::Gpu;
+#[cfg(not(target_family = "wasm"))]
+use crate::shader::Shader;
 use std::ops::{Deref, DerefMut};
 
 /// What a pass, or all passes of one name in a frame, drew.

@@ -166,7 +166,7 @@ impl Member {
         Ok(())
     }
 
-    /// What moves takes more, for instance, than what stands still; and no more once it rests.
+    /// What has moved takes more, for instance, than what has always stood still.
     fn learn(&mut self, held: u64) {
         let known = self.share.price.of(self.size) + self.share.extra;
         (self.share.more, self.share.at) = (held.saturating_sub(known), self.size);

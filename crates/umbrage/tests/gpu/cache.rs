@@ -4,6 +4,7 @@
 use crate::common::{gpu, move_instance, pairs, scene};
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Camera, LightShape, Scene};
+use umbrage::fullscreen::target_texture;
 use umbrage::{Casters, Gpu, Receivers, Recorder, View, VisibilityTarget, find};
 use umbrage_renderer::{LightPass, Renderer};
 
@@ -194,16 +195,7 @@ fn a_dropped_encoder_leaves_nothing_behind() {
     let info = find("shadow-map").unwrap();
     let mut technique = info.settings(&pairs("size=64")).unwrap().make(&gpu).unwrap();
     let casters = Casters::new(&gpu, &scene).unwrap();
-    let depth = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: wgpu::Extent3d { width: 16, height: 16, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Depth32Float,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    });
+    let depth = target_texture(&gpu, "depth", (16, 16), 1, wgpu::TextureFormat::Depth32Float);
     let receivers = Receivers::new(&gpu, &depth.create_view(&Default::default()), None, (16, 16)).unwrap();
     let target = VisibilityTarget::new(&gpu, 16, 16).unwrap();
     let mut recorder = Recorder::new(&gpu);

@@ -106,9 +106,25 @@ fn traced(scene: &Scene, light: usize, size: (u32, u32), samples: u32) -> Arc<(G
     found
 }
 
+/// Pixels by which a coarse rasteriser shifts surfaces; 0 for one that keeps to 1/256, under which
+/// bounds hold as they are.
+pub fn coarseness(gpu: &Gpu) -> f64 {
+    let snapping = f64::from(gpu.snapping());
+    if snapping > 1.0 / 256.0 { snapping } else { 0.0 }
+}
+
+/// How much of the error of a hard shadow is that of a coarse rasteriser, which moves the surface
+/// and what hides the light from it.
+pub fn moved(gpu: &Gpu, scene: &Scene, light: usize, size: (u32, u32)) -> f64 {
+    match coarseness(gpu) {
+        0.0 => 0.0,
+        shift => 2.0 * shift * edge_share(scene, light, size),
+    }
+}
+
 /// Steps between light and shadow from one scored pixel to the next, for each scored pixel: where
 /// the edges of hard shadows move by a part of a pixel, so many times this part are wrong.
-pub fn edge_share(scene: &Scene, light: usize, size: (u32, u32)) -> f64 {
+fn edge_share(scene: &Scene, light: usize, size: (u32, u32)) -> f64 {
     let traced = traced(scene, light, size, 1);
     let (geometry, truth) = &*traced;
     let mask = mask(truth, geometry, 60.0);

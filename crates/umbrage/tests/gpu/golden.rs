@@ -3,7 +3,7 @@
 //! are those of a rasteriser that snaps corners to 1/256 pixel; where another one snaps to larger
 //! parts, the edges of shadows move by so much more.
 
-use crate::common::{against_truth, edge_share, gpu, scene};
+use crate::common::{against_truth, coarseness, gpu, moved, scene};
 
 /// Scene and its detail, light, technique, settings, mean absolute error ×10⁻⁴ at 320×240, least
 /// interior per cent.
@@ -111,12 +111,6 @@ const GOLDEN: &[Row] = &[
 /// may be nothing.
 const PIXELS: f64 = 3.0;
 
-/// Snapping in pixels under which the bounds hold as they are.
-const FINE: f64 = 1.0 / 256.0;
-
-/// The surface and what hides the light from it are both moved.
-const MOVED: f64 = 2.0;
-
 /// Pixels of the interior that a coarser rasteriser may get wrong, since it shows another surface
 /// there than a ray meets; four were seen.
 const COARSE_PIXELS: f64 = 5.0;
@@ -124,17 +118,14 @@ const COARSE_PIXELS: f64 = 5.0;
 #[test]
 fn errors_are_as_stated() {
     let gpu = gpu();
-    let snapping = f64::from(gpu.snapping());
-    let snapping = if snapping > FINE { snapping } else { 0.0 };
+    let is_coarse = coarseness(&gpu) > 0.0;
     let mut wrong = Vec::new();
     for &(id, detail, light, technique, set, mae, interior) in GOLDEN {
         let scene = scene(id, detail);
         let s = against_truth(&gpu, &scene, light, technique, set, (320, 240), 1);
         let pixels = s.scored_pixels as f64;
-        let (moved, shown) = match snapping {
-            0.0 => (0.0, 0.0),
-            _ => (MOVED * snapping * edge_share(&scene, light, (320, 240)) * 1e4, COARSE_PIXELS * 100.0 / pixels),
-        };
+        let moved = 1e4 * moved(&gpu, &scene, light, (320, 240));
+        let shown = if is_coarse { COARSE_PIXELS * 100.0 / pixels } else { 0.0 };
         let (got, inside) = (s.mae * 1e4, s.interior_pct.unwrap_or(0.0));
         let row = format!(
             "{id} {technique} {set}: mae {got:.2}e-4 (stated {mae}, and {moved:.2} by snapping), \

@@ -1,6 +1,6 @@
 //! Shadows projected on planes, where casters, lights and planes are not as in textbooks.
 
-use crate::common::{against_truth, gpu, renderer, visibility};
+use crate::common::{against_truth, coarseness, gpu, renderer, visibility};
 use umbrage::core::glam::{DAffine3, DQuat, DVec3};
 use umbrage::core::{Camera, Light, LightShape, Material, Scene, primitive};
 
@@ -79,7 +79,7 @@ fn lights_in_and_behind_planes_and_scenes_without_planes_leave_all_lit() {
             let s = against_truth(&gpu, &scene, 0, id, "", SIZE, 1);
             // Where a sphere turns away from the light, a coarser rasteriser may show another
             // triangle.
-            let others = if gpu.snapping() > 1.0 / 256.0 { 2.0 } else { 0.0 };
+            let others = if coarseness(&gpu) > 0.0 { 2.0 } else { 0.0 };
             assert!(s.mae * s.scored_pixels as f64 <= others, "{id}, {what}: {}", s.mae);
             assert_eq!(s.not_finite, 0, "{id}, {what}");
         }

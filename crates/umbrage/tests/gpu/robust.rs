@@ -74,6 +74,21 @@ fn nothing_to_draw_is_all_lit() {
     }
 }
 
+/// Nothing of a frame at a larger size is left, such as the part of the picture that was drawn.
+#[test]
+fn a_light_that_casts_no_more_lights_all_at_any_size() {
+    let gpu = gpu();
+    let scene = box_scene(every_light()[0].clone());
+    for id in ["shadow-map", "cascaded", "pcss-jitter", "evsm"] {
+        let mut renderer = renderer(&gpu, &scene, 0, id, "", (160, 120));
+        assert!(visibility(&mut renderer, &scene).data.contains(&0.0), "{id} has no shadow");
+        renderer.light_mut(0).unwrap().casts = false;
+        renderer.resize(64, 48).unwrap();
+        assert!(visibility(&mut renderer, &scene).data.iter().all(|v| *v == 1.0), "{id}");
+        gpu.check().unwrap();
+    }
+}
+
 #[test]
 fn no_lights_leave_ambient() {
     let gpu = gpu();

@@ -1,6 +1,6 @@
 //! Penumbra wedges against ground truth, against the hard shadow and against themselves.
 
-use crate::common::{against_truth, gpu, renderer, scene, score_frame, visibility};
+use crate::common::{against_truth, coarseness, gpu, moved, renderer, scene, score_frame, visibility};
 use crate::shared_references::{mask, size, stored};
 use umbrage::core::glam::{DAffine3, DVec3, Vec3};
 use umbrage::core::{Image, Instance, Light, LightShape, Scene, primitive};
@@ -114,7 +114,8 @@ fn a_point_throws_the_hard_shadow() {
         let scene = scene(id, 1.0);
         let s = score_frame(&mut renderer(&gpu, &scene, 0, "wedges", "", (320, 240)), &scene, 0, (320, 240), 1);
         // Of the pixels that are compared rounding decides a few.
-        assert!(s.mae < 6e-5, "{id}: {}", s.mae);
+        let most = 6e-5 + moved(&gpu, &scene, 0, (320, 240));
+        assert!(s.mae < most, "{id}: {}", s.mae);
     }
 }
 
@@ -155,7 +156,9 @@ fn no_pixel_stands_alone_from_a_hundred_sides() {
         let of_truth = speckles(&truth.visibility, 0.2);
         let scored = crate::common::mask(&truth, &geometry, f32::INFINITY);
         let wrong: Vec<_> = alone.iter().filter(|p| scored[**p] && !of_truth.contains(p)).collect();
-        assert!(wrong.is_empty(), "view {i}: {wrong:?}");
+        // A coarse rasteriser may show another surface in a pixel than a ray meets.
+        let others = usize::from(coarseness(&gpu) > 0.0);
+        assert!(wrong.len() <= others, "view {i}: {wrong:?}");
     }
 }
 

@@ -85,6 +85,11 @@ pub(super) fn is_exact(gpu: &Gpu) -> bool {
     gpu.snapping() <= 1.0 / 256.0
 }
 
+/// Whether bodies are compared with depth, and reach to infinity for that.
+pub(super) fn clamps_depth(gpu: &Gpu) -> bool {
+    gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL) && is_exact(gpu)
+}
+
 impl Pipelines {
     pub fn new(gpu: &Gpu, silhouettes: &wgpu::BindGroupLayout) -> Self {
         let compute = wgpu::ShaderStages::COMPUTE;
@@ -108,7 +113,7 @@ impl Pipelines {
             resolve_layout: layout(gpu, "covered shares", fragment, &[UNIFORM, UNIFORM, layers, UNIFORM]),
             depth_layout: layout(gpu, "depth of wedges", fragment, &[UNIFORM]),
             format: shares_format(gpu),
-            clamps: gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL) && is_exact(gpu),
+            clamps: clamps_depth(gpu),
             silhouettes: silhouettes.clone(),
             making: Vec::new(),
             drawing: Vec::new(),

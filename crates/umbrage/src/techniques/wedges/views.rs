@@ -1,7 +1,7 @@
 //! Pictures of what happens inside: bodies, penumbras, overdraw, and what wedges add to the hard
 //! shadow.
 
-use super::pipelines::{Key, Resolve};
+use super::pipelines::{Key, Resolve, clamps_depth};
 use super::records::GROUP;
 use super::shaders;
 use super::stages::compare;
@@ -137,7 +137,7 @@ impl Views {
     /// Lines are seen through everything, bodies where they are in front of what is seen, and all
     /// else is drawn as shadows are.
     fn depth_compare(&self, reversed: bool) -> Option<wgpu::CompareFunction> {
-        let clamps = self.gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL);
+        let clamps = clamps_depth(&self.gpu);
         match self.name {
             "wireframe" => None,
             "wedges" => Some(compare(clamps, !reversed)),
@@ -212,7 +212,7 @@ impl Views {
         let module = &shader.module(gpu);
         let (of_receivers, of_term) = (Receivers::layout(gpu), key.term.layout(gpu));
         let groups = [Some(&of_receivers), Some(drawn.layout), Some(&of_term)];
-        let clamps = gpu.has(wgpu::Features::DEPTH_CLIP_CONTROL);
+        let clamps = clamps_depth(gpu);
         let face = [("FACE", f64::from(key.face as u32)), ("SPLIT", f64::from(u8::from(key.split)))];
         let constants = match entry {
             "add_wedge" => &face[..],

@@ -3,6 +3,7 @@
 use crate::common::gpu;
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Camera, Light, LightShape, Material, Mesh, Scene, Texture, primitive};
+use umbrage::fullscreen::target_texture;
 use umbrage::{Casters, Error, Placement, Receivers, Recorder, View, VisibilityTarget, find};
 
 fn text<T>(result: Result<T, Error>) -> String {
@@ -78,16 +79,7 @@ fn a_host_that_forgets_to_record_is_told() {
     let material = scene.add_material(Material::default());
     scene.place(floor, material, DAffine3::from_scale(DVec3::splat(8.0)));
     scene.place(cube, material, DAffine3::from_translation(DVec3::Y));
-    let depth = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: wgpu::Extent3d { width: 8, height: 8, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Depth32Float,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    });
+    let depth = target_texture(&gpu, "depth", (8, 8), 1, wgpu::TextureFormat::Depth32Float);
     let depth = depth.create_view(&Default::default());
     let receivers = Receivers::new(&gpu, &depth, None, (8, 8)).unwrap();
     let target = VisibilityTarget::new(&gpu, 8, 8).unwrap();
