@@ -19,7 +19,7 @@ mod lit;
 mod many;
 mod overlay;
 mod radiance;
-#[cfg(not(target_family = "wasm"))]
+#[cfg(all(feature = "native", not(target_family = "wasm")))]
 mod read_back;
 mod read_later;
 mod shading;

@@ -1,7 +1,7 @@
 //! What a renderer hands out, read back without waiting, for browsers.
 
 use crate::{Renderer, lit::Target, no_pass};
-use umbrage::{Answer, Error, read};
+use umbrage::{Answer, Error};
 use umbrage_core::Image;
 
 impl Renderer {
@@ -17,7 +17,7 @@ impl Renderer {
     /// radiance; [`Error::DeviceLost`] and [`Error::Driver`].
     pub async fn visibility_async(&self, pass: usize) -> Result<Image<f32>, Error> {
         match self.target(pass)? {
-            Target::Visibility(target, _) => read::later::one_channel(&self.gpu, &target.texture, 0).await,
+            Target::Visibility(target, _) => target.read_async(&self.gpu).await,
             Target::Radiance(..) => Answer::Radiance.refuse(),
         }
     }

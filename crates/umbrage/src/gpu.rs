@@ -4,6 +4,8 @@ mod adapter;
 mod arrival;
 #[cfg(not(target_family = "wasm"))]
 mod blocking;
+#[cfg(any(feature = "native", target_family = "wasm"))]
+mod request;
 mod shared;
 mod watch;
 
@@ -41,43 +43,6 @@ impl Gpu {
         .union(wgpu::Features::FLOAT32_FILTERABLE)
         .union(wgpu::Features::FLOAT32_BLENDABLE)
         .union(wgpu::Features::INDIRECT_FIRST_INSTANCE);
-
-    /// The adapters of this machine, best first, software ones last; those that can't be used come
-    /// with their reason. In a browser it is the one that the browser chooses.
-    pub async fn adapters_async() -> Vec<AdapterSummary> {
-        adapter::enumerate().await.iter().map(AdapterSummary::of).collect()
-    }
-
-    /// A device of the best adapter, or of the one `wanted` names: a part of its name or kind
-    /// (`software`, `nvidia`, …), or its number in [`Gpu::adapters_async`].
-    ///
-    /// # Errors
-    /// [`Error::NoAdapter`], [`Error::Unknown`] or [`Error::NoDevice`].
-    pub async fn request_async(wanted: Option<&str>) -> Result<Self, Error> {
-        let adapter = adapter::choose(adapter::enumerate().await, wanted)?;
-        let descriptor = wgpu::DeviceDescriptor {
-            label: Some("umbrage"),
-            required_features: adapter.features() & Self::WANTED,
-            required_limits: adapter.limits(),
-            ..Default::default()
-        };
-        let (device, queue) = adapter
-            .request_device(&descriptor)
-            .await
-            .map_err(|e| Error::NoDevice { adapter: adapter.get_info().name, reason: e.to_string() })?;
-        let gpu = Self::new(device, queue);
-        // What a device calls must not keep it alive.
-        let watch = gpu.frames();
-        gpu.device.on_uncaptured_error(Arc::new(move |e: wgpu::Error| watch.report(Error::Driver(e.to_string()))));
-        let watch = gpu.frames();
-        gpu.device.set_device_lost_callback(move |reason, text| {
-            watch.report(Error::DeviceLost(format!("{reason:?} {text}").trim().to_string()));
-        });
-        if cfg!(target_family = "wasm") {
-            gpu.measure_async().await;
-        }
-        Ok(gpu)
-    }
 
     /// A host's own device. The host keeps its error and device-lost handlers; that the device is
     /// lost is noticed all the same, but in a browser, where the host has to say so: [`Gpu::lost`].

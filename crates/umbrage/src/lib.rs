@@ -31,6 +31,16 @@
 //! gpu.queue.submit([encoder.finish()]);
 //! # Ok(()) }
 //! ```
+//!
+//! # Features
+//!
+//! | feature | what it brings |
+//! |---|---|
+//! | `native`, by default | back ends for desktops (Vulkan, Metal, DirectX 12, GL); outside of browsers `Gpu::adapters`, `Gpu::request` and their asynchronous twins, `Gpu::catch`, and what reads pictures back and waits: [`read`] |
+//! | `mint` | matrices and vectors of [`core::glam`] from and into those of [`mint`](https://docs.rs/mint) |
+//!
+//! A host with a device of its own turns `native` off. In browsers WebGPU is there without any
+//! feature, and so is `Gpu::request_async`.
 
 /// The example in the project's README is compiled with the tests of the documentation.
 #[cfg(doctest)]

@@ -1,14 +1,14 @@
 //! Pictures back from the GPU. For files and tests; waits for the device, which browsers do not
-//! allow: there, [`later`] has the same as futures.
+//! allow. [`later`] has the same as futures, with and without the feature `native`.
 //!
 //! All of them give [`crate::Error::DeviceLost`] and [`crate::Error::Driver`].
 
 pub mod later;
 
-#[cfg(not(target_family = "wasm"))]
+#[cfg(all(feature = "native", not(target_family = "wasm")))]
 pub use now::{half_colors, one_channel, packed_normals, rgba8};
 
-#[cfg(not(target_family = "wasm"))]
+#[cfg(all(feature = "native", not(target_family = "wasm")))]
 mod now {
     use super::later;
     use crate::{RadianceTarget, VisibilityTarget, error::Error, gpu::Gpu};
@@ -52,7 +52,7 @@ mod now {
         /// # Errors
         /// [`crate::Error::DeviceLost`] and [`crate::Error::Driver`].
         pub fn read(&self, gpu: &Gpu) -> Result<Image<f32>, Error> {
-            one_channel(gpu, &self.texture, self.layer)
+            gpu.finish(self.read_async(gpu))
         }
     }
 
@@ -62,7 +62,7 @@ mod now {
         /// # Errors
         /// [`crate::Error::DeviceLost`] and [`crate::Error::Driver`].
         pub fn read(&self, gpu: &Gpu) -> Result<Image<[f32; 3]>, Error> {
-            half_colors(gpu, &self.texture)
+            gpu.finish(self.read_async(gpu))
         }
     }
 }

@@ -1,10 +1,13 @@
 //! What waits for the device, where a thread may wait: everywhere but in browsers.
 
-use super::{AdapterSummary, Gpu};
+#[cfg(feature = "native")]
+use super::AdapterSummary;
+use super::Gpu;
 use crate::error::Error;
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
 
+#[cfg(feature = "native")]
 impl Gpu {
     /// [`Gpu::adapters_async`], waited for.
     pub fn adapters() -> Vec<AdapterSummary> {
@@ -19,6 +22,16 @@ impl Gpu {
         pollster::block_on(Self::request_async(wanted))
     }
 
+    /// [`Gpu::catch_async`], waited for.
+    ///
+    /// # Errors
+    /// That of `work`, or else [`Error::Driver`].
+    pub fn catch<T, E: From<Error>>(&self, work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
+        pollster::block_on(self.catch_async(work))
+    }
+}
+
+impl Gpu {
     /// Waits until all submitted work is done.
     ///
     /// # Errors
@@ -27,14 +40,6 @@ impl Gpu {
         let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
         self.check()?;
         polled.map(|_| ()).map_err(|e| Error::Driver(e.to_string()))
-    }
-
-    /// [`Gpu::catch_async`], waited for.
-    ///
-    /// # Errors
-    /// That of `work`, or else [`Error::Driver`].
-    pub fn catch<T, E: From<Error>>(&self, work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
-        pollster::block_on(self.catch_async(work))
     }
 
     /// Waits for what submits work and then waits for the device.

@@ -29,13 +29,6 @@ impl Watcher {
         Self(Arc::downgrade(watch))
     }
 
-    /// See [`Watch::report`].
-    pub fn report(&self, error: Error) {
-        if let Some(watch) = self.0.upgrade() {
-            watch.report(error);
-        }
-    }
-
     /// Counts frames that were executed, of all recorders.
     pub fn count(&self) -> u64 {
         self.0.upgrade().map_or(0, |watch| watch.count_frame())

@@ -76,6 +76,7 @@ pub(super) struct Counter {
 }
 
 impl Counter {
+    #[cfg(not(target_family = "wasm"))]
     pub fn new(gpu: &Gpu) -> Self {
         Self { queries: Queries::new(gpu, "fragments", wgpu::QueryType::Occlusion, 1), latest: Vec::new() }
     }

@@ -6,9 +6,30 @@
 
 use crate::error::Error;
 use crate::gpu::{Gpu, arrival};
+use crate::{RadianceTarget, VisibilityTarget};
 use half::f16;
 use umbrage_core::Image;
 use umbrage_core::glam::Vec3;
+
+impl VisibilityTarget {
+    /// The values, read back.
+    ///
+    /// # Errors
+    /// [`Error::DeviceLost`] and [`Error::Driver`].
+    pub async fn read_async(&self, gpu: &Gpu) -> Result<Image<f32>, Error> {
+        one_channel(gpu, &self.texture, self.layer).await
+    }
+}
+
+impl RadianceTarget {
+    /// The values, read back.
+    ///
+    /// # Errors
+    /// [`Error::DeviceLost`] and [`Error::Driver`].
+    pub async fn read_async(&self, gpu: &Gpu) -> Result<Image<[f32; 3]>, Error> {
+        half_colors(gpu, &self.texture).await
+    }
+}
 
 /// 8-bit colour, as it is stored.
 ///
