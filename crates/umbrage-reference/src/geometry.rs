@@ -33,14 +33,34 @@ pub struct Surface {
 }
 
 /// One pixel of [`Geometry`].
-struct Shown {
+pub(crate) struct Shown {
     depth: f64,
     model: i32,
-    receives: bool,
-    surface: Surface,
+    pub receives: bool,
+    pub surface: Surface,
 }
 
 impl Geometry {
+    /// Of pixels that all show nothing.
+    pub(crate) fn nothing(width: u32, height: u32) -> Self {
+        Self {
+            depth: Image::filled(width, height, 0.0),
+            normal: Image::filled(width, height, Vec3::ZERO),
+            model: Image::filled(width, height, -1),
+            receives: Image::filled(width, height, false),
+            surfaces: Image::filled(width, height, None),
+        }
+    }
+
+    /// Sets what a pixel shows.
+    pub(crate) fn show(&mut self, pixel: usize, shown: &Shown) {
+        self.depth.data[pixel] = shown.depth as f32;
+        self.normal.data[pixel] = shown.surface.normal.as_vec3();
+        self.model.data[pixel] = shown.model;
+        self.receives.data[pixel] = shown.receives;
+        self.surfaces.data[pixel] = Some(shown.surface);
+    }
+
     /// The surface that pixel (`x`, `y`) shows; `None` where it shows nothing, and outside the
     /// picture.
     pub fn surface(&self, x: u32, y: u32) -> Option<&Surface> {
@@ -59,11 +79,7 @@ impl Tracer {
     pub fn geometry_where(&self, camera: &Camera, mask: &Image<bool>) -> Geometry {
         let (width, height) = mask.size();
         let rows = (0..height).into_par_iter().flat_map_iter(|y| {
-            (0..width).map(move |x| {
-                let pixel = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
-                let ray = (camera.start(pixel, width, height), camera.ray(pixel, width, height));
-                mask[(x, y)].then(|| self.look(ray, camera.near)).flatten()
-            })
+            (0..width).map(move |x| mask[(x, y)].then(|| self.look(camera, (x, y), (width, height))).flatten())
         });
         let shown: Vec<Option<Shown>> = rows.collect();
         Geometry {
@@ -75,8 +91,11 @@ impl Tracer {
         }
     }
 
-    fn look(&self, (start, direction): (DVec3, DVec3), near: f64) -> Option<Shown> {
-        let (triangle, depth) = self.first(start - self.center, direction, near)?;
+    /// What the centre of a pixel of a picture of this size shows.
+    pub(crate) fn look(&self, camera: &Camera, (x, y): (u32, u32), (width, height): (u32, u32)) -> Option<Shown> {
+        let pixel = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
+        let (start, direction) = (camera.start(pixel, width, height), camera.ray(pixel, width, height));
+        let (triangle, depth) = self.first(start - self.center, direction, camera.near)?;
         let instance = self.instance(triangle.id);
         let normal = triangle.unit_normal();
         let surface = Surface {

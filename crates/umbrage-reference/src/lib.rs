@@ -3,7 +3,7 @@
 //! [`Tracer::new`] takes a scene, [`Tracer::geometry`] finds what a camera sees, and
 //! [`Tracer::visibility`] computes for each pixel the share of a light that its surface sees past
 //! the casting triangles. What visibility is, the scene format specifies; [`closed_form`] holds the
-//! formulas that the tracer is tested against.
+//! formulas that the tracer is tested against. [`Progressive`] traces the same in slices, for windows.
 
 mod bvh;
 pub mod closed_form;
@@ -11,6 +11,7 @@ mod cutout;
 mod geometry;
 mod kept;
 mod light_view;
+mod progressive;
 mod shaft;
 mod tracer;
 mod triangle;
@@ -18,5 +19,6 @@ mod visibility;
 
 pub use geometry::{Geometry, Surface};
 pub use kept::{Kept, Key, SceneKey, Traced};
+pub use progressive::Progressive;
 pub use tracer::Tracer;
 pub use visibility::{Options, Truth};

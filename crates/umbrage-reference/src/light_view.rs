@@ -18,8 +18,8 @@ const MOST_GATHERED: usize = 48;
 pub(crate) const LEAST_COSINE: f64 = 1e-6;
 
 /// A light, ready for any surface.
-pub(crate) struct LightView<'a> {
-    light: &'a Light,
+pub(crate) struct LightView {
+    light: Light,
     sampler: LightSampler,
     /// Points of the unit square; none for the one ray to the centre.
     samples: Vec<DVec2>,
@@ -36,6 +36,8 @@ pub(crate) struct Tally {
     pub rays: u64,
     gathered: Vec<u32>,
     seen: Vec<(u32, SeenTriangle)>,
+    /// True where the last visibility depends on no samples: others would give the same.
+    pub is_exact: bool,
 }
 
 /// What can lie between a surface point and the light.
@@ -46,8 +48,8 @@ enum Between {
     Anything,
 }
 
-impl<'a> LightView<'a> {
-    pub fn new(light: &'a Light, textures: &[Texture], options: &Options) -> Self {
+impl LightView {
+    pub fn new(light: &Light, textures: &[Texture], options: &Options) -> Self {
         let soft = light.shape.kind().is_soft() && light.shape.radius() > 0.0 && options.samples > 1;
         let radius = match light.shape {
             // Beyond a right angle the sine falls again.
@@ -55,12 +57,25 @@ impl<'a> LightView<'a> {
             _ => light.shape.radius() * (1.0 + 1e-6),
         };
         Self {
-            light,
+            light: light.clone(),
             sampler: LightSampler::new(&light.shape, textures),
             samples: lattice(if soft { options.samples as usize } else { 0 }),
             radius,
             gather: options.gather,
         }
+    }
+
+    /// Changes how many points of the light every pixel gets, at least one; lights without extent
+    /// keep their one ray.
+    pub fn set_samples(&mut self, samples: u32) {
+        if !self.samples.is_empty() {
+            self.samples = lattice(samples.max(1) as usize);
+        }
+    }
+
+    /// How many points of the light every pixel gets.
+    pub fn samples(&self) -> u32 {
+        self.samples.len().max(1) as u32
     }
 
     /// True where the surface's normal faces the light's centre, by more than [`LEAST_COSINE`].
@@ -71,6 +86,7 @@ impl<'a> LightView<'a> {
 
     /// The share of the light that the surface sees.
     pub fn visibility(&self, tracer: &Tracer, surface: &Surface, seed: u32, tally: &mut Tally) -> f64 {
+        tally.is_exact = true;
         if !self.light.casts {
             return 1.0;
         }
@@ -84,6 +100,7 @@ impl<'a> LightView<'a> {
         if matches!(between, Between::Nothing) && (!surface.casts || self.is_above(surface)) {
             return 1.0;
         }
+        tally.is_exact = false;
         let from = self.sampler.at(surface.position).turned(shift(!seed).x * TAU);
         let samples = self.samples.iter().map(|&u| from.sample(rotated(u, shift(seed))));
         let blocked = match between {

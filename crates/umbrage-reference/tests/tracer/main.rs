@@ -1,6 +1,7 @@
 //! The tracer as a whole, from outside.
 
 mod closed_forms;
+mod progressive;
 mod references;
 mod scales;
 mod scenes;
