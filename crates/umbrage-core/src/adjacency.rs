@@ -30,7 +30,7 @@ pub struct Edge {
 
 impl Edge {
     /// True where the two triangles run along it in opposite directions.
-    fn is_balanced(&self) -> bool {
+    pub fn is_balanced(&self) -> bool {
         self.triangles[1] != NONE && !self.same_direction
     }
 

@@ -36,7 +36,7 @@ mod vertices;
 mod world;
 pub(crate) use before_eye::before_eye;
 pub(crate) use draw_list::{DrawList, InstanceNumbers, Light, Surface};
-pub(crate) use edges::{Edges, MeshEdges};
+pub(crate) use edges::{Edges, MeshEdges, Reads};
 pub(crate) use eye_tree::largest_stretch;
 pub(crate) use host::refuse as refuse_host_casters;
 pub use host::{CasterView, HostCasters, Needs};

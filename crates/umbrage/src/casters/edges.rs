@@ -1,12 +1,18 @@
 //! Edges and planes of the meshes on the GPU, for techniques that extrude silhouettes.
+//!
+//! They lie in four arrays, none with more bytes than indices have: a binding of 128 MiB, which
+//! WebGPU promises, holds what belongs to 11 million triangles.
+
+mod groups;
 
 use super::eye_tree::EyeTree;
 use super::geometry::MeshPart;
 use super::journal::Journal;
 use super::poses::{self, Poses};
 use super::store::{Parts, Store};
-use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{error::Error, gpu::Gpu, shader::Shared, shader::shader_struct};
+pub(crate) use groups::Reads;
+use groups::{Groups, too_large};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 use umbrage_core::adjacency::{self, Adjacency, NONE, without_copies};
@@ -15,87 +21,49 @@ use umbrage_core::{Mesh, glam::Vec4};
 /// What the host has to agree on with `edges.wgsl`.
 pub(super) const SHARED: Shared = Shared {
     module: "edges",
-    layouts: &[Edge::LAYOUT],
-    constants: &[("NO_TRIANGLE", NO_TRIANGLE as f64), ("SAME_DIRECTION", SAME_DIRECTION as f64)],
+    layouts: &[Edge::LAYOUT, Pair::LAYOUT],
+    constants: &[
+        ("NO_TRIANGLE", NO_TRIANGLE as f64),
+        ("SAME_DIRECTION", SAME_DIRECTION as f64),
+        ("ONE_WAY", ONE_WAY as f64),
+    ],
 };
 
 shader_struct! {
-    /// An edge between two vertices and its triangles, see `edges.wgsl`.
+    /// An edge between two vertices, see `edges.wgsl`.
     pub(crate) struct Edge {
         start: u32,
         end: u32,
+    }
+}
+
+shader_struct! {
+    /// The triangles at an edge, see `edges.wgsl`.
+    pub(crate) struct Pair {
         first: u32,
         second: u32,
     }
 }
 
-/// `Edge::second` where there is no second triangle.
+/// `Pair::second` where there is no second triangle.
 const NO_TRIANGLE: u32 = 0x7fff_ffff;
-/// Bit of `Edge::second`: both triangles run along the edge the same way.
+/// Bit of `Pair::second`: both triangles run along the edge the same way.
 const SAME_DIRECTION: u32 = 0x8000_0000;
+/// Bit of `Edge::start`: no triangles lie on both sides of the edge.
+const ONE_WAY: u32 = 0x8000_0000;
 
 const EDGES: &str = "edges";
 const PLANES: &str = "planes";
-const TOO_LARGE: &str = "a buffer of edges, planes or vertices (techniques with maps need none; the limit is the \
-                         device's max_storage_buffer_binding_size)";
-
-/// With the remedy.
-fn too_large(error: Error) -> Error {
-    match error {
-        Error::Size { size, limit, .. } => Error::Size { what: TOO_LARGE.into(), size, limit },
-        other => other,
-    }
-}
-
 /// The plane of a triangle that no edge has, such as a copy of another one.
 const LEFT_OUT: Vec4 = Vec4::new(0.0, 0.0, 0.0, -1.0);
-
-/// Bindings of [`Groups::draw`] that compute reads. WebGPU promises eight storage buffers a stage,
-/// and silhouettes and what is made of them take four.
-const WITHOUT_INDICES: [u32; 4] = [0, 1, 2, 4];
-const WITHOUT_EDGES: [u32; 4] = [1, 2, 3, 4];
 
 /// Of all meshes, made when a technique first asks, kept up from then on, and shared by every
 /// light.
 pub(crate) struct Edges {
-    edges: Store,
-    planes: Store,
+    stores: Stores,
     parts: [Parts; 2],
     meshes: Vec<MeshEdges>,
     groups: Groups,
-}
-
-/// What binds them together with the vertices.
-pub(crate) struct Groups {
-    /// As `edges.wgsl` declares it, for compute.
-    pub find: wgpu::BindGroup,
-    /// As `silhouettes/extrude.wgsl` declares it, for drawing.
-    pub draw: wgpu::BindGroup,
-    /// The same for compute, without the indices of triangles.
-    pub make_edges: wgpu::BindGroup,
-    /// The same without the edges.
-    pub make_triangles: wgpu::BindGroup,
-    /// What remakes planes of posed meshes.
-    pub(super) pose: wgpu::BindGroup,
-    of: [wgpu::Buffer; 5],
-}
-
-impl Groups {
-    fn new(gpu: &Gpu, of: [wgpu::Buffer; 5]) -> Result<Self, Error> {
-        let limit = gpu.device.limits().max_storage_buffer_binding_size;
-        if let Some(size) = of.iter().map(wgpu::Buffer::size).find(|size| *size > limit) {
-            return Err(Error::Size { what: TOO_LARGE.into(), size, limit });
-        }
-        let all = of.each_ref().map(|b| b.as_entire_binding());
-        Ok(Self {
-            find: bind(gpu, "edges", &Edges::find_layout(gpu), &all[..2]),
-            make_edges: part(gpu, WITHOUT_INDICES, &all),
-            make_triangles: part(gpu, WITHOUT_EDGES, &all),
-            draw: bind(gpu, "edges", &Edges::draw_layout(gpu), &all),
-            pose: poses::planes_group(gpu, &of[3], &of[1]),
-            of,
-        })
-    }
 }
 
 /// The edges of one mesh and where they lie in the shared buffers.
@@ -142,21 +110,19 @@ impl Edges {
         (meshes, poses): (&[MeshPart], &Poses),
         of_vertices: [&wgpu::Buffer; 3],
     ) -> Result<Self, Error> {
-        let (edges, planes) = (Store::new(gpu, EDGES, 16, 0)?, Store::new(gpu, PLANES, 16, 0)?);
-        let groups = Groups::new(gpu, buffers([&edges, &planes], of_vertices))?;
-        let mut made = Self { edges, planes, parts: [Parts::new(), Parts::new()], meshes: Vec::new(), groups };
-        let mut all = Vec::new();
+        let stores = Stores::new(gpu, [0; 2])?;
+        let groups = Groups::new(gpu, stores.buffers(of_vertices))?;
+        let mut made = Self { stores, parts: [Parts::new(), Parts::new()], meshes: Vec::new(), groups };
         // Those of posed instances have the edges of the meshes that they are made of.
+        let mut added = Vec::new();
         for posed in [false, true] {
             let numbers = (0..).zip(meshes).filter(|(_, part)| part.version != 0 && part.source.is_some() == posed);
-            for (number, _) in numbers {
-                made.add(number, (meshes, poses), &mut all)?;
-            }
+            added.extend(numbers.map(|(number, _)| number));
         }
+        added.iter().try_for_each(|number| made.add(*number, meshes))?;
+        made.stores = Stores::new(gpu, made.ends())?;
         let mut journal = Journal::default();
-        made.edges = Store::new(gpu, EDGES, 16, u64::from(made.parts[0].end())).map_err(too_large)?;
-        made.planes = Store::new(gpu, PLANES, 16, u64::from(made.parts[1].end())).map_err(too_large)?;
-        all.iter().for_each(|new| made.write(&mut journal, new));
+        added.iter().for_each(|number| made.write(&mut journal, *number, (meshes, poses)));
         journal.finish(gpu);
         made.bind(gpu, of_vertices)?;
         Ok(made)
@@ -171,25 +137,48 @@ impl Edges {
         gpu: &Gpu,
         journal: &mut Journal,
         number: u32,
-        of: (&[MeshPart], &Poses),
+        (meshes, poses): (&[MeshPart], &Poses),
     ) -> Result<(), Error> {
         self.remove(number);
-        let mut new = Vec::new();
-        self.add(number, of, &mut new)?;
-        self.edges.fit(gpu, u64::from(self.parts[0].end()), journal).map_err(too_large)?;
-        self.planes.fit(gpu, u64::from(self.parts[1].end()), journal).map_err(too_large)?;
-        new.iter().for_each(|new| self.write(journal, new));
+        self.add(number, meshes)?;
+        self.stores.fit(gpu, self.ends(), journal)?;
+        self.write(journal, number, (meshes, poses));
         Ok(())
     }
 
-    fn write(&self, journal: &mut Journal, (number, edges, planes): &New) {
-        let mesh = &self.meshes[*number as usize];
-        self.edges.write(journal, mesh.first_edge, edges);
-        self.planes.write(journal, mesh.first_triangle, planes);
+    /// How many edges and triangles there have to be.
+    fn ends(&self) -> [u64; 2] {
+        self.parts.each_ref().map(|parts| u64::from(parts.end()))
+    }
+
+    fn write(&self, journal: &mut Journal, number: u32, (meshes, poses): (&[MeshPart], &Poses)) {
+        let (part, mesh) = (&meshes[number as usize], &self.meshes[number as usize]);
+        let adjacency = &mesh.adjacency;
+        let edge = |e: &adjacency::Edge| Edge {
+            start: part.base_vertex + e.vertices[0] | if e.is_balanced() { 0 } else { ONE_WAY },
+            end: part.base_vertex + e.vertices[1],
+        };
+        let number_of = |t: u32| match t {
+            NONE => NO_TRIANGLE,
+            t => mesh.first_triangle + adjacency.numbers[t as usize],
+        };
+        let pair = |e: &adjacency::Edge| Pair {
+            first: number_of(e.triangles[0]),
+            second: number_of(e.triangles[1]) | if e.same_direction { SAME_DIRECTION } else { 0 },
+        };
+        let Stores { edges, pairs, normals, offsets } = &self.stores;
+        edges.write(journal, mesh.first_edge, &adjacency.edges.iter().map(edge).collect::<Vec<_>>());
+        pairs.write(journal, mesh.first_edge, &adjacency.edges.iter().map(pair).collect::<Vec<_>>());
+        let mut planes = vec![LEFT_OUT; mesh.triangle_count as usize];
+        let own = poses.planes(number, part, adjacency).unwrap_or(&adjacency.planes);
+        own.iter().zip(&adjacency.numbers).for_each(|(plane, &t)| planes[t as usize] = *plane);
+        let normal = |plane: &Vec4| plane.truncate().to_array();
+        normals.write(journal, mesh.first_triangle, &planes.iter().map(normal).collect::<Vec<_>>());
+        offsets.write(journal, mesh.first_triangle, &planes.iter().map(|plane| plane.w).collect::<Vec<_>>());
     }
 
     /// Finds the edges of a mesh and a place for them.
-    fn add(&mut self, number: u32, (meshes, poses): (&[MeshPart], &Poses), new: &mut Vec<New>) -> Result<(), Error> {
+    fn add(&mut self, number: u32, meshes: &[MeshPart]) -> Result<(), Error> {
         let part = &meshes[number as usize];
         let adjacency = match part.source.and_then(|source| self.meshes.get(source as usize)) {
             Some(source) => source.adjacency.clone(),
@@ -203,18 +192,6 @@ impl Edges {
         };
         let parts = [take(0, adjacency.edges.len(), EDGES)?, take(1, triangle_count as usize, PLANES)?];
         let [first_edge, first_triangle] = [parts[0].start, parts[1].start];
-        let triangle = |t: u32| if t == NONE { NO_TRIANGLE } else { first_triangle + adjacency.numbers[t as usize] };
-        let edge = |e: &adjacency::Edge| Edge {
-            start: part.base_vertex + e.vertices[0],
-            end: part.base_vertex + e.vertices[1],
-            first: triangle(e.triangles[0]),
-            second: triangle(e.triangles[1]) | if e.same_direction { SAME_DIRECTION } else { 0 },
-        };
-        let edges: Vec<Edge> = adjacency.edges.iter().map(edge).collect();
-        let mut planes = vec![LEFT_OUT; triangle_count as usize];
-        let own = poses.planes(number, part, &adjacency).unwrap_or(&adjacency.planes);
-        own.iter().zip(&adjacency.numbers).for_each(|(plane, &t)| planes[t as usize] = *plane);
-        new.push((number, edges, planes));
         self.meshes.resize_with(self.meshes.len().max(number as usize + 1), MeshEdges::default);
         self.meshes[number as usize] =
             MeshEdges { adjacency, first_edge, first_triangle, triangle_count, eye_tree: OnceLock::new(), parts };
@@ -234,34 +211,21 @@ impl Edges {
     /// # Errors
     /// [`Error::Size`] where shaders may not have all vertices.
     pub(super) fn bind(&mut self, gpu: &Gpu, of_vertices: [&wgpu::Buffer; 3]) -> Result<(), Error> {
-        let of = buffers([&self.edges, &self.planes], of_vertices);
-        if self.groups.of != of {
+        let of = self.stores.buffers(of_vertices);
+        if !self.groups.are_of(&of) {
             self.groups = Groups::new(gpu, of)?;
         }
         Ok(())
     }
 
-    /// What binds them.
-    pub fn groups(&self) -> &Groups {
-        &self.groups
+    /// What a shader reads of them, as group 1.
+    pub fn group(&self, reads: Reads) -> &wgpu::BindGroup {
+        self.groups.get(reads)
     }
 
-    pub fn find_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-        layout(gpu, "edges", wgpu::ShaderStages::COMPUTE, &[STORAGE; 2])
-    }
-
-    pub fn draw_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-        layout(gpu, "edges", wgpu::ShaderStages::VERTEX, &[STORAGE; 5])
-    }
-
-    /// Of [`Groups::make_edges`].
-    pub fn make_edges_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-        part_layout(gpu, WITHOUT_INDICES)
-    }
-
-    /// Of [`Groups::make_triangles`].
-    pub fn make_triangles_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-        part_layout(gpu, WITHOUT_EDGES)
+    /// What remakes planes of posed meshes.
+    pub(super) fn pose_group(&self) -> &wgpu::BindGroup {
+        &self.groups.pose
     }
 
     /// Of a mesh, by its number.
@@ -271,33 +235,47 @@ impl Edges {
 
     /// GPU memory, once for all lights.
     pub fn bytes(&self) -> u64 {
-        self.edges.bytes() + self.planes.bytes()
+        self.stores.bytes()
     }
 }
 
-/// Number of a mesh, its edges and its planes.
-type New = (u32, Vec<Edge>, Vec<Vec4>);
-
-/// What [`Groups`] bind.
-fn buffers(own: [&Store; 2], of_vertices: [&wgpu::Buffer; 3]) -> [wgpu::Buffer; 5] {
-    let [edges, planes] = own.map(|store| store.buffer().clone());
-    let [positions, indices, instances] = of_vertices.map(wgpu::Buffer::clone);
-    [edges, planes, positions, indices, instances]
+/// The buffers: of edges and the triangles at them, and of planes.
+struct Stores {
+    edges: Store,
+    pairs: Store,
+    normals: Store,
+    offsets: Store,
 }
 
-fn part_layout(gpu: &Gpu, bindings: [u32; 4]) -> wgpu::BindGroupLayout {
-    let entry = |binding| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: STORAGE,
-        count: None,
-    };
-    let entries = bindings.map(entry);
-    gpu.bind_group_layout("edges", &entries)
-}
+impl Stores {
+    fn new(gpu: &Gpu, [edges, triangles]: [u64; 2]) -> Result<Self, Error> {
+        let store = |what, stride, count| Store::new(gpu, what, stride, count).map_err(too_large);
+        Ok(Self {
+            edges: store(EDGES, size_of::<Edge>() as u64, edges)?,
+            pairs: store(EDGES, size_of::<Pair>() as u64, edges)?,
+            normals: store(PLANES, 12, triangles)?,
+            offsets: store(PLANES, 4, triangles)?,
+        })
+    }
 
-fn part(gpu: &Gpu, bindings: [u32; 4], all: &[wgpu::BindingResource<'_>]) -> wgpu::BindGroup {
-    let entries = bindings.map(|binding| wgpu::BindGroupEntry { binding, resource: all[binding as usize].clone() });
-    let layout = &part_layout(gpu, bindings);
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("edges"), layout, entries: &entries })
+    /// Has room for so many edges and triangles.
+    fn fit(&mut self, gpu: &Gpu, [edges, triangles]: [u64; 2], journal: &mut Journal) -> Result<(), Error> {
+        let Self { edges: of_edges, pairs, normals, offsets } = self;
+        for (store, count) in [(of_edges, edges), (pairs, edges), (normals, triangles), (offsets, triangles)] {
+            store.fit(gpu, count, journal).map_err(too_large)?;
+        }
+        Ok(())
+    }
+
+    /// What [`Groups`] bind.
+    fn buffers(&self, of_vertices: [&wgpu::Buffer; 3]) -> [wgpu::Buffer; 7] {
+        let Self { edges, pairs, normals, offsets } = self;
+        let [edges, pairs, normals, offsets] = [edges, pairs, normals, offsets].map(|store| store.buffer().clone());
+        let [positions, indices, instances] = of_vertices.map(wgpu::Buffer::clone);
+        [edges, pairs, positions, indices, instances, normals, offsets]
+    }
+
+    fn bytes(&self) -> u64 {
+        [&self.edges, &self.pairs, &self.normals, &self.offsets].iter().map(|store| store.bytes()).sum()
+    }
 }

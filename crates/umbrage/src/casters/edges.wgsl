@@ -2,10 +2,18 @@
 // light-facing triangle that no neighbour cancels, so that any triangle soup casts right (Bergeron
 // 1986; Aldridge and Woods 2004; Kim 2008).
 
+// All of it lies in arrays of at most 12 bytes a triangle, as indices do, so that a binding of
+// 128 MiB holds what belongs to 11 million triangles.
+
 struct Edge {
+    // A vertex, and ONE_WAY where no triangles lie on both sides of the edge.
     start: u32,
     end: u32,
-    // The triangle that runs from start to end.
+}
+
+// The triangles at an edge.
+struct Pair {
+    // The one that runs from start to end.
     first: u32,
     // The other one and SAME_DIRECTION, or NO_TRIANGLE.
     second: u32,
@@ -54,6 +62,7 @@ const COUNT_FROM_INFINITY: u32 = 64u;
 
 const NO_TRIANGLE: u32 = 0x7fffffffu;
 const SAME_DIRECTION: u32 = 0x80000000u;
+const ONE_WAY: u32 = 0x80000000u;
 
 // Edges, and triangles, of a caster that go together; each chunk names its caster.
 const CHUNK: u32 = 64u;
@@ -64,7 +73,23 @@ const HEADER: u32 = 8u;
 
 @group(0) @binding(0) var<storage, read> casters: array<Caster>;
 @group(1) @binding(0) var<storage, read> edges: array<Edge>;
-@group(1) @binding(1) var<storage, read> planes: array<vec4f>;
+@group(1) @binding(1) var<storage, read> pairs: array<Pair>;
+@group(1) @binding(5) var<storage, read> plane_normals: array<f32>;
+@group(1) @binding(6) var<storage, read> plane_offsets: array<f32>;
+
+fn start_of(edge: Edge) -> u32 {
+    return edge.start & ~ONE_WAY;
+}
+
+// Of a triangle; zero where that has no area.
+fn normal_of(triangle: u32) -> vec3f {
+    let at = 3u * triangle;
+    return vec3f(plane_normals[at], plane_normals[at + 1u], plane_normals[at + 2u]);
+}
+
+fn plane_at(triangle: u32) -> vec4f {
+    return vec4f(normal_of(triangle), plane_offsets[triangle]);
+}
 
 // 1 where the light is in front of the plane or in it, −1 behind it.
 fn facing(plane: vec4f, light: vec4f) -> i32 {
@@ -73,19 +98,19 @@ fn facing(plane: vec4f, light: vec4f) -> i32 {
 
 // What a triangle adds to its edges; it is taken turned to the light.
 fn share(caster: u32, triangle: u32) -> i32 {
-    let f = facing(planes[triangle], casters[caster].light);
+    let f = facing(plane_at(triangle), casters[caster].light);
     return select(f, 0, f > 0 && (casters[caster].flags & AWAY) != 0u);
 }
 
 // How often the edge bounds the shadow; negative where that runs from end to start.
-fn multiplicity(caster: u32, edge: Edge) -> i32 {
-    let one = share(caster, edge.first);
-    let other = edge.second & ~SAME_DIRECTION;
+fn multiplicity(caster: u32, pair: Pair) -> i32 {
+    let one = share(caster, pair.first);
+    let other = pair.second & ~SAME_DIRECTION;
     if other == NO_TRIANGLE {
         return one;
     }
     let two = share(caster, other);
-    return one + select(-two, two, (edge.second & SAME_DIRECTION) != 0u);
+    return one + select(-two, two, (pair.second & SAME_DIRECTION) != 0u);
 }
 
 // What is drawn, in 32 bits: chunk, place in it, and two bits: turned round, counts twice.

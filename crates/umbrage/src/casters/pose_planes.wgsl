@@ -2,7 +2,8 @@
 // Planes of triangles that have been bent, for silhouettes.
 
 @group(1) @binding(0) var<storage, read> indices: array<u32>;
-@group(1) @binding(1) var<storage, read_write> planes: array<vec4f>;
+@group(1) @binding(1) var<storage, read_write> plane_normals: array<f32>;
+@group(1) @binding(2) var<storage, read_write> plane_offsets: array<f32>;
 
 // The plane of a triangle that no edge has, such as a copy of another one.
 const LEFT_OUT: vec4f = vec4f(0.0, 0.0, 0.0, -1.0);
@@ -32,13 +33,19 @@ fn pose_planes(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let triangle = mesh.first_triangle + id.x;
-    if all(planes[triangle] == LEFT_OUT) {
+    let slot = 3u * triangle;
+    let normal = vec3f(plane_normals[slot], plane_normals[slot + 1u], plane_normals[slot + 2u]);
+    if all(vec4f(normal, plane_offsets[triangle]) == LEFT_OUT) {
         return;
     }
     let at = mesh.first_index + 3u * id.x;
-    planes[triangle] = plane_of(
+    let plane = plane_of(
         position_at(mesh.vertex + indices[at]) - mesh.center,
         position_at(mesh.vertex + indices[at + 1u]) - mesh.center,
         position_at(mesh.vertex + indices[at + 2u]) - mesh.center,
     );
+    plane_normals[slot] = plane.x;
+    plane_normals[slot + 1u] = plane.y;
+    plane_normals[slot + 2u] = plane.z;
+    plane_offsets[triangle] = plane.w;
 }

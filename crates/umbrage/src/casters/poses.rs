@@ -178,7 +178,7 @@ impl Poses {
         if let Some(planes) = group.filter(|_| most_triangles > 0) {
             pass.set_bind_group(0, &bound.of_positions, &[]);
             pass.set_bind_group(1, planes, &[]);
-            pass.set_pipeline(&device.planes);
+            pass.set_pipeline(device.planes(gpu));
             pass.dispatch_workgroups(most_triangles.div_ceil(GROUP), meshes, 1);
         }
         self.posed.values_mut().for_each(|posed| posed.changed = false);

@@ -1,5 +1,6 @@
 //! From the CPU to the GPU: once a frame, in the host's encoder.
 
+use super::edges::Edges;
 use super::world::{Casters, group, next_version};
 use crate::{error::Error, passes::Passes};
 
@@ -27,7 +28,7 @@ impl Casters {
         self.bind();
         self.journal.record(passes, self.poses.have_changed());
         let edges = self.edges.get();
-        let planes = edges.map(|edges| &edges.groups().pose);
+        let planes = edges.map(Edges::pose_group);
         let planes_of = |mesh| edges.map(|edges| edges.of_mesh(mesh).planes());
         self.poses.record(&self.gpu, passes, &self.geometry, planes, planes_of)?;
         if let Some(planes) = self.receiver_planes.get_mut() {

@@ -1,6 +1,6 @@
 //! What a frame's casters and lists are uploaded to, and what shaders read beside them.
 
-use crate::fullscreen::bind;
+use crate::fullscreen::{STORAGE, bind, layout};
 use crate::shader::shader_struct;
 use crate::{error::Error, gpu::Gpu};
 
@@ -27,6 +27,11 @@ shader_struct! {
 /// Bytes of the arguments of an indirect draw.
 pub(super) const ARGUMENTS: u64 = size_of::<wgpu::util::DrawIndexedIndirectArgs>() as u64;
 
+/// Of the bind group with casters alone, for compute.
+pub(crate) fn casters_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    layout(gpu, "casters of a light", wgpu::ShaderStages::COMPUTE, &[STORAGE])
+}
+
 /// Bytes that buffers need to have.
 pub(super) struct Needs {
     pub casters: u64,
@@ -41,6 +46,7 @@ pub(super) struct Buffers {
     pub find_uniform: wgpu::Buffer,
     pub extrusion: wgpu::Buffer,
     pub draw: wgpu::BindGroup,
+    pub casters_alone: wgpu::BindGroup,
     pub find: Option<wgpu::BindGroup>,
 }
 
@@ -78,8 +84,9 @@ impl Buffers {
         let draw_extra = [extrusion.as_entire_binding()];
         let find_extra = [arguments.as_entire_binding(), find_uniform.as_entire_binding()];
         let draw = bind(gpu, "silhouettes", draw_layout, &[&shared[..], &draw_extra].concat());
+        let casters_alone = bind(gpu, "casters of a light", &casters_layout(gpu), &shared[..1]);
         let find = find_layout.map(|l| bind(gpu, "find silhouettes", l, &[&shared[..], &find_extra].concat()));
-        Ok(Self { draw, find, casters, list, arguments, find_uniform, extrusion })
+        Ok(Self { draw, casters_alone, find, casters, list, arguments, find_uniform, extrusion })
     }
 
     pub fn hold(&self, needs: &Needs) -> bool {

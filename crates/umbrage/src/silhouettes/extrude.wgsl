@@ -74,7 +74,7 @@ fn side_corner(entry: u32, corner: u32) -> Corner {
     let edge = edges[casters[caster].first_edge + slot - casters[caster].edge_chunk * CHUNK];
     let is_turned = ((entry & 1u) != 0u) != ((casters[caster].flags & MIRRORED) != 0u);
     let is_start = corner == 1u || corner == 2u;
-    let p = light_corner(caster, select(edge.end, edge.start, is_start != is_turned));
+    let p = light_corner(caster, select(edge.end, start_of(edge), is_start != is_turned));
     let times = select(1.0, 2.0, WEIGHTED && (entry & 2u) != 0u);
     if corner >= 2u {
         return on_screen(dark_corner(caster, p), times);
@@ -135,7 +135,7 @@ fn side_at(slot: u32, before: u32) -> u32 {
     if edge >= casters[caster].edge_count {
         return NO_ENTRY;
     }
-    let times = multiplicity(caster, edges[casters[caster].first_edge + edge]);
+    let times = multiplicity(caster, pairs[casters[caster].first_edge + edge]);
     return select(NO_ENTRY, side_entry(slot, times), u32(abs(times)) > before);
 }
 
@@ -159,7 +159,7 @@ fn any_cap(@builtin(vertex_index) vertex: u32, @builtin(instance_index) chunk: u
     if triangle >= casters[caster].triangle_count {
         return NOWHERE;
     }
-    let plane = planes[casters[caster].first_triangle + triangle];
+    let plane = plane_at(casters[caster].first_triangle + triangle);
     let f = facing(plane, casters[caster].light);
     if all(plane.xyz == vec3f(0.0)) || (f > 0 && (casters[caster].flags & AWAY) != 0u) {
         return NOWHERE;

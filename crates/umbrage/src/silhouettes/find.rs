@@ -3,7 +3,7 @@
 use super::buffers::{Buffers, FindSilhouettes};
 use super::shape::{Part, Shape};
 use super::work::Work;
-use crate::casters::Edges;
+use crate::casters::{Edges, Reads};
 use crate::compute::compute_pipeline;
 use crate::fullscreen::{STORAGE, UNIFORM, layout};
 use crate::shader::Shader;
@@ -34,7 +34,7 @@ impl Find {
         let bindings = [STORAGE, written, written, UNIFORM];
         let layout = layout(gpu, "find silhouettes", wgpu::ShaderStages::COMPUTE, &bindings);
         let module = FIND_SHADER.module(gpu);
-        let edges = Edges::find_layout(gpu);
+        let edges = Reads::Sides.layout(gpu);
         let groups = [Some(&layout), Some(&edges)];
         let pipeline = |entry| compute_pipeline(gpu, &module, entry, &groups, &[]);
         Self { sides: pipeline("find_sides"), caps: pipeline("find_caps"), group: pipeline("group_entries"), layout }
@@ -58,7 +58,7 @@ impl Find {
         passes.upload(&buffers.arguments, bytemuck::cast_slice(&arguments));
         let mut pass = passes.compute("silhouettes");
         pass.set_bind_group(0, bind_group, &[]);
-        pass.set_bind_group(1, &edges.groups().find, &[]);
+        pass.set_bind_group(1, edges.group(Reads::Sides), &[]);
         for (pipeline, groups) in [(&self.sides, edge_chunks), (&self.caps, triangle_chunks), (&self.group, 1)] {
             if groups > 0 {
                 pass.set_pipeline(pipeline);

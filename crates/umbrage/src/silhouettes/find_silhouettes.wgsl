@@ -40,7 +40,7 @@ fn find_sides(
     if edge >= casters[caster].edge_count {
         return;
     }
-    let times = multiplicity(caster, edges[casters[caster].first_edge + edge]);
+    let times = multiplicity(caster, pairs[casters[caster].first_edge + edge]);
     if times == 0 {
         return;
     }
@@ -64,7 +64,7 @@ fn find_caps(
     if triangle >= casters[caster].triangle_count {
         return;
     }
-    let plane = planes[casters[caster].first_triangle + triangle];
+    let plane = plane_at(casters[caster].first_triangle + triangle);
     let f = facing(plane, casters[caster].light);
     // A triangle without area has no plane and covers nothing.
     if all(plane.xyz == vec3f(0.0)) || (f > 0 && (casters[caster].flags & AWAY) != 0u) {

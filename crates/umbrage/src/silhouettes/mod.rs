@@ -12,11 +12,12 @@ mod find;
 mod shape;
 mod work;
 
-use crate::casters::Edges;
+use crate::casters::{Edges, Reads};
 use crate::choices;
 use crate::fullscreen::{STORAGE, UNIFORM, layout};
 use crate::shader::Shared;
 use crate::{casters::Casters, error::Error, gpu::Gpu, passes::Passes};
+pub(crate) use buffers::casters_layout;
 use buffers::{ARGUMENTS, Buffers, Extrusion};
 pub(crate) use caster::Throw;
 use caster::{Caster, FLAGS};
@@ -75,8 +76,7 @@ impl Silhouettes {
         }
     }
 
-    /// The layout of the bind group that the vertex shaders take as group 0; group 1 is
-    /// [`Edges::draw_layout`].
+    /// The layout of [`Silhouettes::found_by_gpu`].
     pub fn layout(&self) -> &wgpu::BindGroupLayout {
         &self.draw_layout
     }
@@ -84,6 +84,20 @@ impl Silhouettes {
     /// Names of the vertex shaders for sides and for caps.
     pub fn entries(&self) -> [&'static str; 2] {
         if self.extrude == Extrude::Vertex { ["any_side", "any_cap"] } else { ["listed_side", "listed_cap"] }
+    }
+
+    /// The layout of pipelines that draw a part.
+    pub fn pipeline_layout(&self, gpu: &Gpu, part: Part) -> wgpu::PipelineLayout {
+        gpu.pipeline_layout(&[Some(&self.draw_layout), Some(&self.reads(part).layout(gpu))])
+    }
+
+    /// What the vertex shaders of a part read.
+    fn reads(&self, part: Part) -> Reads {
+        match (part, self.extrude) {
+            (Part::Caps, _) => Reads::Triangles,
+            (_, Extrude::Vertex) => Reads::AllEdges,
+            _ => Reads::Edges,
+        }
     }
 
     /// Describes the casters of a frame: first all that are counted from the eye, then the others.
@@ -146,7 +160,7 @@ impl Silhouettes {
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, edges: &Edges, part: Part) {
         let Some(buffers) = &self.buffers else { return };
         pass.set_bind_group(0, &buffers.draw, &[]);
-        pass.set_bind_group(1, &edges.groups().draw, &[]);
+        pass.set_bind_group(1, edges.group(self.reads(part)), &[]);
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint16);
         let indices = self.shape.indices(part);
         match self.extrude {
@@ -160,10 +174,15 @@ impl Silhouettes {
         }
     }
 
-    /// What compute shaders take as group 0 to read casters and what was found; group 1 is
-    /// [`Edges::draw`].
+    /// What compute shaders take as group 0 to read casters and what was found; group 1 is of
+    /// [`Edges::group`].
     pub fn found_by_gpu(&self) -> Option<&wgpu::BindGroup> {
         self.buffers.as_ref().map(|b| &b.draw)
+    }
+
+    /// The same for casters alone, see [`casters_layout`].
+    pub fn casters_on_gpu(&self) -> Option<&wgpu::BindGroup> {
+        self.buffers.as_ref().map(|b| &b.casters_alone)
     }
 
     /// Sides that may be found at most.

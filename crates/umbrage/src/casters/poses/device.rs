@@ -4,6 +4,7 @@ use crate::casters::geometry::Geometry;
 use crate::compute::compute_pipeline;
 use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{error::Error, gpu::Gpu, shader::Shader, shader::shader_struct};
+use std::sync::OnceLock;
 
 /// Bends vertices; then makes planes of the triangles between them.
 pub(crate) const SHADERS: &[Shader] = &[
@@ -43,7 +44,8 @@ pub const GROUP: u32 = 64;
 pub(super) struct Device {
     pub vertices: wgpu::ComputePipeline,
     pub normals: wgpu::ComputePipeline,
-    pub planes: wgpu::ComputePipeline,
+    /// Needs more storage buffers than the smallest devices allow, where nothing asks for planes.
+    planes: OnceLock<wgpu::ComputePipeline>,
     layouts: [wgpu::BindGroupLayout; 3],
     bound: Option<Bound>,
 }
@@ -69,13 +71,13 @@ const WRITTEN: wgpu::BindingType = wgpu::BindingType::Buffer {
     min_binding_size: None,
 };
 
-/// The bind group that planes are remade through: indices and planes.
-pub(crate) fn planes_group(gpu: &Gpu, indices: &wgpu::Buffer, planes: &wgpu::Buffer) -> wgpu::BindGroup {
-    bind(gpu, "planes of poses", &planes_layout(gpu), &[indices.as_entire_binding(), planes.as_entire_binding()])
+/// The bind group that planes are remade through: indices, then normals and offsets of planes.
+pub(crate) fn planes_group(gpu: &Gpu, of: [&wgpu::Buffer; 3]) -> wgpu::BindGroup {
+    bind(gpu, "planes of poses", &planes_layout(gpu), &of.map(wgpu::Buffer::as_entire_binding))
 }
 
 fn planes_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    layout(gpu, "planes of poses", wgpu::ShaderStages::COMPUTE, &[STORAGE, WRITTEN])
+    layout(gpu, "planes of poses", wgpu::ShaderStages::COMPUTE, &[STORAGE, WRITTEN, WRITTEN])
 }
 
 /// The layout of a group with the meshes, and vertices that are written at `binding`.
@@ -101,21 +103,27 @@ fn written_group(
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("poses"), layout, entries: &entries })
 }
 
+fn pipeline(gpu: &Gpu, shader: &Shader, entry: &str, groups: [&wgpu::BindGroupLayout; 2]) -> wgpu::ComputePipeline {
+    compute_pipeline(gpu, &shader.module(gpu), entry, &groups.map(Some), &[])
+}
+
 impl Device {
     pub fn new(gpu: &Gpu) -> Self {
         let (positions, normals) = (written_layout(gpu, 1), written_layout(gpu, 2));
         let joints = layout(gpu, "joints", wgpu::ShaderStages::COMPUTE, &[STORAGE; 2]);
-        let planes = planes_layout(gpu);
-        let pipeline = |shader: &Shader, entry, groups: &[Option<&wgpu::BindGroupLayout>]| {
-            compute_pipeline(gpu, &shader.module(gpu), entry, groups, &[])
-        };
         Self {
-            vertices: pipeline(&SHADERS[0], "pose_vertices", &[Some(&positions), Some(&joints)]),
-            normals: pipeline(&SHADERS[0], "pose_normals", &[Some(&normals), Some(&joints)]),
-            planes: pipeline(&SHADERS[1], "pose_planes", &[Some(&positions), Some(&planes)]),
+            vertices: pipeline(gpu, &SHADERS[0], "pose_vertices", [&positions, &joints]),
+            normals: pipeline(gpu, &SHADERS[0], "pose_normals", [&normals, &joints]),
+            planes: OnceLock::new(),
             layouts: [positions, normals, joints],
             bound: None,
         }
+    }
+
+    /// Makes planes.
+    pub fn planes(&self, gpu: &Gpu) -> &wgpu::ComputePipeline {
+        let groups = [&self.layouts[0], &planes_layout(gpu)];
+        self.planes.get_or_init(|| pipeline(gpu, &SHADERS[1], "pose_planes", groups))
     }
 
     pub fn bound(&self) -> Option<&Bound> {

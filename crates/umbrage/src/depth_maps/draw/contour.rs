@@ -1,6 +1,6 @@
 //! The edges that bound the shadows of a light's casters, in world space, on the GPU.
 
-use crate::casters::{Casters, Edges, Places};
+use crate::casters::{Casters, Places, Reads};
 use crate::compute::compute_pipeline;
 use crate::fullscreen::{STORAGE, STORAGE_WRITE, UNIFORM, bind, layout};
 use crate::shader::{Shader, Shared, shader_struct};
@@ -74,7 +74,7 @@ impl Contour {
     pub fn new(gpu: &Gpu) -> Self {
         let silhouettes = Silhouettes::new(gpu, Extrude::Compute);
         let written = layout(gpu, "make contour", wgpu::ShaderStages::COMPUTE, &[STORAGE_WRITE]);
-        let of_edges = Edges::make_edges_layout(gpu);
+        let of_edges = Reads::Contour.layout(gpu);
         let groups = [Some(silhouettes.layout()), Some(&of_edges), Some(&written)];
         let make = compute_pipeline(gpu, &CONTOUR_SHADER.module(gpu), "make_contour", &groups, &[]);
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
@@ -169,7 +169,7 @@ impl Contour {
         let mut pass = passes.compute("silhouettes");
         pass.set_pipeline(&self.make);
         pass.set_bind_group(0, self.silhouettes.found_by_gpu(), &[]);
-        pass.set_bind_group(1, &edges.groups().make_edges, &[]);
+        pass.set_bind_group(1, edges.group(Reads::Contour), &[]);
         pass.set_bind_group(2, &buffers.write, &[]);
         pass.dispatch_workgroups(chunks.min(ROW), chunks.div_ceil(ROW), 1);
     }

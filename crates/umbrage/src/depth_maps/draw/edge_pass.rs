@@ -110,7 +110,7 @@ impl EdgePass {
     }
 
     /// Storage buffers that a shader stage has to have room for.
-    pub const STORAGE_BUFFERS: u32 = 7;
+    pub const STORAGE_BUFFERS: u32 = 8;
 
     /// Chooses the casters that any of `seen_by` sees (mostly the frame's own views), for their
     /// edges as seen from `light` (mostly [`umbrage_core::LightShape::center`]: a place, or with w

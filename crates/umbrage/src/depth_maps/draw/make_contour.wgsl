@@ -23,17 +23,19 @@ fn make_contour(
     }
     let slot = entry >> 2u;
     let caster = list[HEADER + slot / CHUNK];
-    let edge = edges[casters[caster].first_edge + slot - casters[caster].edge_chunk * CHUNK];
+    let number = casters[caster].first_edge + slot - casters[caster].edge_chunk * CHUNK;
+    let edge = edges[number];
+    let pair = pairs[number];
     let is_turned = ((entry & 1u) != 0u) != ((casters[caster].flags & MIRRORED) != 0u);
-    let start = light_corner(caster, select(edge.start, edge.end, is_turned));
-    let end = light_corner(caster, select(edge.end, edge.start, is_turned));
-    let other = edge.second & ~SAME_DIRECTION;
-    let is_there = has_area(edge.first) || (other != NO_TRIANGLE && has_area(other));
+    let start = light_corner(caster, select(start_of(edge), edge.end, is_turned));
+    let end = light_corner(caster, select(edge.end, start_of(edge), is_turned));
+    let other = pair.second & ~SAME_DIRECTION;
+    let is_there = has_area(pair.first) || (other != NO_TRIANGLE && has_area(other));
     let times = select(1.0, 2.0, (entry & 2u) != 0u);
     contour[at] = ContourRecord(start, select(0.0, times, is_there), end, 0.0);
 }
 
 // A triangle without area has no plane and shadows nothing, whatever its edges are.
 fn has_area(triangle: u32) -> bool {
-    return any(planes[triangle].xyz != vec3f(0.0));
+    return any(normal_of(triangle) != vec3f(0.0));
 }

@@ -40,7 +40,7 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
     lights: LightKinds::ALL,
     casters: Needs::Edges,
     features: wgpu::Features::empty(),
-    limits: storage_buffers::<7>,
+    limits: storage_buffers::<8>,
     hard: true,
     settings: SettingsOf::new::<Volume>(),
     views: views::NAMES,

@@ -2,10 +2,9 @@
 //! up.
 
 use super::options::CounterKind;
-use crate::casters::Edges;
 use crate::fullscreen::{FLOATS, additive, front_face, layout, texture};
 use crate::shader::Shader;
-use crate::silhouettes::Part;
+use crate::silhouettes::{Part, Silhouettes};
 use crate::{gpu::Gpu, visibility::VisibilityTarget};
 use wgpu::{CompareFunction, StencilFaceState, StencilOperation};
 
@@ -52,7 +51,8 @@ pub(super) struct TargetKey {
 /// Made once each.
 pub(super) struct Pipelines {
     count_module: wgpu::ShaderModule,
-    count_layout: wgpu::PipelineLayout,
+    /// Of sides and of caps.
+    count_layouts: [wgpu::PipelineLayout; 2],
     entries: [&'static str; 2],
     resolve_module: wgpu::ShaderModule,
     pub read_counts: wgpu::BindGroupLayout,
@@ -62,13 +62,11 @@ pub(super) struct Pipelines {
 }
 
 impl Pipelines {
-    /// `silhouettes`: the layout of group 0; `entries`: the vertex shaders of sides and caps.
-    pub fn new(gpu: &Gpu, silhouettes: &wgpu::BindGroupLayout, entries: [&'static str; 2]) -> Self {
-        let count_layout = gpu.pipeline_layout(&[Some(silhouettes), Some(&Edges::draw_layout(gpu))]);
+    pub fn new(gpu: &Gpu, silhouettes: &Silhouettes) -> Self {
         Self {
             count_module: COUNT_SHADER.module(gpu),
-            count_layout,
-            entries,
+            count_layouts: [Part::PassSides, Part::Caps].map(|part| silhouettes.pipeline_layout(gpu, part)),
+            entries: silhouettes.entries(),
             resolve_module: RESOLVE_SHADER.module(gpu),
             read_counts: layout(gpu, "counts", wgpu::ShaderStages::FRAGMENT, &[texture(FLOATS)]),
             counting: Vec::new(),
@@ -102,6 +100,7 @@ impl Pipelines {
     }
 
     fn count(&self, gpu: &Gpu, key: Key) -> wgpu::RenderPipeline {
+        let is_cap = usize::from(key.part == Part::Caps);
         let on = |switch: bool| if switch { 1.0 } else { 0.0 };
         let vertex_constants = [("WEIGHTED", on(key.weighted))];
         let fragment_constants =
@@ -118,10 +117,10 @@ impl Pipelines {
         };
         gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("volumes"),
-            layout: Some(&self.count_layout),
+            layout: Some(&self.count_layouts[is_cap]),
             vertex: wgpu::VertexState {
                 module: &self.count_module,
-                entry_point: Some(self.entries[usize::from(key.part == Part::Caps)]),
+                entry_point: Some(self.entries[is_cap]),
                 compilation_options: wgpu::PipelineCompilationOptions {
                     constants: &vertex_constants,
                     ..Default::default()

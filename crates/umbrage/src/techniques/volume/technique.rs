@@ -39,7 +39,7 @@ impl Volume {
         let options = Options::of(settings);
         let silhouettes = Silhouettes::new(gpu, options.extrude);
         Self {
-            pipelines: Pipelines::new(gpu, silhouettes.layout(), silhouettes.entries()),
+            pipelines: Pipelines::new(gpu, &silhouettes),
             options,
             silhouettes,
             counter: Counter::new(),

@@ -236,7 +236,8 @@ impl Views {
                 let vertex = if entry == "line" { edge } else { [side, cap][usize::from(caps)] };
                 let (width, height) = size;
                 let line = [("LINE_X", 1.4 / f64::from(width)), ("LINE_Y", 1.4 / f64::from(height))];
-                volume_pipeline(gpu, silhouettes, vertex, entry, &line)
+                let layout = silhouettes.pipeline_layout(gpu, if caps { Part::Caps } else { Part::PassSides });
+                volume_pipeline(gpu, &layout, vertex, entry, &line)
             }
         }
     }
@@ -244,15 +245,12 @@ impl Views {
 
 fn volume_pipeline(
     gpu: &Gpu,
-    silhouettes: &Silhouettes,
+    layout: &wgpu::PipelineLayout,
     vertex: &str,
     fragment: &str,
     constants: &[(&str, f64)],
 ) -> wgpu::RenderPipeline {
     let module = VIEWS_SHADER.module(gpu);
-    let of_edges = Edges::draw_layout(gpu);
-    let groups = [Some(silhouettes.layout()), Some(&of_edges)];
-    let layout = gpu.pipeline_layout(&groups);
     let options = || wgpu::PipelineCompilationOptions { constants, ..Default::default() };
     let target = match fragment {
         "one" => additive(NUMBERS),
@@ -261,7 +259,7 @@ fn volume_pipeline(
     };
     gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("view of volumes"),
-        layout: Some(&layout),
+        layout: Some(layout),
         vertex: wgpu::VertexState {
             module: &module,
             entry_point: Some(vertex),

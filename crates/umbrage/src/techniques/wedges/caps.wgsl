@@ -74,8 +74,9 @@ fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         return;
     }
     let number = casters[chunk.caster].first_triangle + triangle;
-    if any(planes[number].xyz != vec3f(0.0)) && share(chunk.caster, number) != 0 {
-        let faces_light = facing(planes[number], casters[chunk.caster].light) > 0;
+    let plane = plane_at(number);
+    if any(plane.xyz != vec3f(0.0)) && share(chunk.caster, number) != 0 {
+        let faces_light = facing(plane, casters[chunk.caster].light) > 0;
         caps[cap] = cap_of(chunk.caster, triangle, faces_light, weights_of(chunk.caster, faces_light));
     }
 }

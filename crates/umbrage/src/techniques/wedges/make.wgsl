@@ -122,23 +122,16 @@ fn plane_of(wedge: ptr<function, Wedge>) -> vec4f {
     return vec4f(normal, dot(normal, place));
 }
 
-// Of the sum of both sides of a body, which the list goes by, each one's part.
+// Of the sum of both sides of a body, which the list goes by, each one's part. All triangles of a
+// body count: of those on both sides of an edge one faces the light and one faces away; others all
+// face the light or, where the edge is turned, away.
 fn weights_of(caster: u32, edge: Edge, entry: u32) -> vec2f {
     let times = select(1.0, 2.0, (entry & 2u) != 0u);
     if (casters[caster].flags & BODY) == 0u {
         return vec2f(times);
     }
-    let other = edge.second & ~SAME_DIRECTION;
-    var sides = one_side(caster, edge.first);
-    if other != NO_TRIANGLE {
-        let two = one_side(caster, other);
-        sides += select(-two, two, (edge.second & SAME_DIRECTION) != 0u);
-    }
-    return select(sides, -sides, (entry & 1u) != 0u);
-}
-
-fn one_side(caster: u32, triangle: u32) -> vec2f {
-    return select(vec2f(0.0, -1.0), vec2f(1.0, 0.0), facing(planes[triangle], casters[caster].light) > 0);
+    let of_one_side = select(vec2f(times, 0.0), vec2f(0.0, times), (entry & 1u) != 0u);
+    return select(vec2f(1.0), of_one_side, (edge.start & ONE_WAY) != 0u);
 }
 
 @compute @workgroup_size(64)
@@ -164,7 +157,7 @@ fn make(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let caster = list[HEADER + slot / CHUNK];
     let edge = edges[casters[caster].first_edge + slot - casters[caster].edge_chunk * CHUNK];
     let is_turned = ((entry & 1u) != 0u) != ((casters[caster].flags & MIRRORED) != 0u);
-    let one = place(caster, edge.start);
+    let one = place(caster, start_of(edge));
     let other = place(caster, edge.end);
     var wedge: Wedge;
     wedge.eye_start = select(one, other, is_turned);

@@ -8,7 +8,7 @@ use super::select::Selection;
 use super::tables::Term;
 use super::targets::{Buffers, SIDES, Target};
 use crate::area_light::{Form, Frame, ROUNDING};
-use crate::casters::Edges;
+use crate::casters::{Edges, Reads};
 use crate::receivers::Eye;
 use crate::silhouettes::{Extrude, Part, Silhouettes, Style};
 use crate::{
@@ -138,14 +138,15 @@ impl Piece {
         pass.set_bind_group(0, found, &[]);
         if let Some(making) = r.pipelines.making(Making::Wedges { reversed: is_reversed(view) }) {
             pass.set_pipeline(making);
-            pass.set_bind_group(1, &edges.groups().make_edges, &[]);
+            pass.set_bind_group(1, edges.group(Reads::Edges), &[]);
             pass.set_bind_group(2, &buffers.make, &[]);
             dispatch(&mut pass, room.div_ceil(GROUP));
         }
         let chunks = self.caps_of(r.round).len() as u32;
         if let Some(caps) = r.pipelines.making(Making::Caps).filter(|_| chunks > 0) {
             pass.set_pipeline(caps);
-            pass.set_bind_group(1, &edges.groups().make_triangles, &[]);
+            pass.set_bind_group(0, self.silhouettes.casters_on_gpu(), &[]);
+            pass.set_bind_group(1, edges.group(Reads::Triangles), &[]);
             pass.set_bind_group(2, &buffers.make_caps, &[]);
             dispatch(&mut pass, chunks);
         }

@@ -5,11 +5,12 @@ use super::shaders;
 use super::stages::{Stages, compare};
 use super::tables::Term;
 use crate::area_light::Face;
-use crate::casters::Edges;
+use crate::casters::Reads;
 use crate::compute::compute_pipeline;
 use crate::fullscreen::{FLOATS, Fullscreen, STORAGE, STORAGE_WRITE, UNIFORM, front_face, layout};
 use crate::receivers::Receivers;
 use crate::shader::Shader;
+use crate::silhouettes::casters_layout;
 use crate::{gpu::Gpu, visibility::VisibilityTarget};
 
 /// Made once.
@@ -131,12 +132,12 @@ impl Pipelines {
             Making::Wedges { reversed } => {
                 let far = if reversed { 0.0 } else { 1.0 };
                 let constants = [("FAR", far)];
-                let groups = [&self.silhouettes, &Edges::make_edges_layout(gpu), &self.make_layout];
+                let groups = [&self.silhouettes, &Reads::Edges.layout(gpu), &self.make_layout];
                 compute(gpu, &shaders::MAKE, &groups, &constants)
             }
             Making::Bundles => compute(gpu, &shaders::BUNDLE, &[&self.bundle_layout], &[]),
             Making::Caps => {
-                let groups = [&self.silhouettes, &Edges::make_triangles_layout(gpu), &self.caps_layout];
+                let groups = [&casters_layout(gpu), &Reads::Triangles.layout(gpu), &self.caps_layout];
                 compute(gpu, &shaders::CAPS, &groups, &[])
             }
         };
