@@ -155,7 +155,7 @@ impl Edges {
         let (part, mesh) = (&meshes[number as usize], &self.meshes[number as usize]);
         let adjacency = &mesh.adjacency;
         let edge = |e: &adjacency::Edge| Edge {
-            start: part.base_vertex + e.vertices[0] | if e.is_balanced() { 0 } else { ONE_WAY },
+            start: (part.base_vertex + e.vertices[0]) | if e.is_balanced() { 0 } else { ONE_WAY },
             end: part.base_vertex + e.vertices[1],
         };
         let number_of = |t: u32| match t {

@@ -262,7 +262,8 @@ fn a_mesh_whose_indices_just_fit_a_binding_casts_the_same_shadows() {
     let [whole, small] = [1 << 27, 1 << 17].map(|limit| {
         let limits = wgpu::Limits { max_storage_buffer_binding_size: limit, ..Default::default() };
         let (gpu, complaints) = plain(limits);
-        let pictures = sets.map(|(id, set)| picture(&gpu, &scene, id, set).unwrap_or_else(|e| panic!("{id} {set}: {e}")));
+        let pictures =
+            sets.map(|(id, set)| picture(&gpu, &scene, id, set).unwrap_or_else(|e| panic!("{id} {set}: {e}")));
         let complaints = complaints.lock().unwrap();
         assert!(complaints.is_empty(), "{}", complaints.join("\n"));
         pictures
