@@ -4,9 +4,17 @@ use crate::shell;
 use anyhow::{Context, Result};
 use std::process::{Command, Stdio};
 
-/// The crates that a browser can run; `umbrage-metrics` joins them without ꟻLIP, which is C++.
-const FOR_BROWSERS: [&str; 6] =
-    ["umbrage-core", "umbrage-io", "umbrage-reference", "umbrage-metrics", "umbrage", "umbrage-renderer"];
+/// The crates that a browser can run, some of them in part; `umbrage-metrics` joins them without
+/// ꟻLIP, which is C++.
+const FOR_BROWSERS: [&str; 7] = [
+    "umbrage-core",
+    "umbrage-io",
+    "umbrage-reference",
+    "umbrage-metrics",
+    "umbrage",
+    "umbrage-renderer",
+    "umbrage-report",
+];
 const BROWSER: &str = "wasm32-unknown-unknown";
 
 /// Compiles nothing at full speed that only runs while compiling.

@@ -5,6 +5,7 @@
 
 mod defaults;
 mod error;
+mod files;
 mod gltf_file;
 mod limits;
 mod lines;
@@ -19,8 +20,10 @@ pub mod stored;
 mod text;
 
 pub use error::{Error, Place};
+pub use files::Bytes;
 pub use text::printable;
 
+use files::Files;
 use std::path::Path;
 use umbrage_core::Scene;
 
@@ -40,12 +43,25 @@ pub struct Opened {
 /// # Errors
 /// Whatever is wrong with the file or with one that it refers to; a scene without a triangle.
 pub fn open(path: &Path) -> Result<Opened, Error> {
+    open_from(Files::OnDisk, path)
+}
+
+/// The same from bytes that are at hand, such as files dropped on a page: `path` is one of `files`,
+/// and what it refers to is looked up among them, by its path or else by its name alone.
+///
+/// # Errors
+/// As [`open`]; a file that is not among them.
+pub fn open_bytes(path: &str, files: &Bytes) -> Result<Opened, Error> {
+    open_from(Files::AtHand(files), Path::new(path))
+}
+
+fn open_from(files: Files<'_>, path: &Path) -> Result<Opened, Error> {
     if extension(path) == "toml" {
-        let text = text::decode(path, error::read(path)?)?;
+        let text = text::decode(path, files.read(path)?)?;
         let dir = path.parent().unwrap_or(Path::new(""));
-        return scene_file::read(&text, dir, path);
+        return scene_file::read(files, &text, dir, path);
     }
-    let model = model::Model::read(path)?;
+    let model = model::Model::read(files, path)?;
     let mut scene = Scene { name: title(path), ..Scene::default() };
     let bases = model.add_to(&mut scene);
     model.place(&mut scene, bases, &model::Placement::default());
@@ -66,7 +82,7 @@ pub fn open(path: &Path) -> Result<Opened, Error> {
 /// # Errors
 /// As [`open`].
 pub fn open_str(toml_text: &str, base_dir: &Path, name: &str) -> Result<Opened, Error> {
-    scene_file::read(toml_text, base_dir, Path::new(name))
+    scene_file::read(Files::OnDisk, toml_text, base_dir, Path::new(name))
 }
 
 /// Characters of a scene's name.

@@ -1,6 +1,7 @@
 //! A model file as data: what OBJ and glTF give, before it is placed in a scene.
 
 use crate::error::{self, Error, shown};
+use crate::files::Files;
 use crate::limits::LARGEST;
 use crate::{extension, gltf_file, obj};
 use glam::{DAffine3, Vec2, Vec3};
@@ -78,10 +79,10 @@ pub(crate) struct Bases {
 
 impl Model {
     /// Reads a model by its extension.
-    pub fn read(path: &Path) -> Result<Self, Error> {
+    pub fn read(files: Files<'_>, path: &Path) -> Result<Self, Error> {
         let model = match extension(path).as_str() {
-            "obj" => obj::read(path)?,
-            "gltf" | "glb" => gltf_file::read(path)?,
+            "obj" => obj::read(files, path)?,
+            "gltf" | "glb" => gltf_file::read(files, path)?,
             other => {
                 return Err(Error::new(path, format!("`.{other}` is not a kind of file that can be opened"))
                     .remedy("use .toml (a scene file), .obj, .gltf or .glb"));

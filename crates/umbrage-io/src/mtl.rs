@@ -7,6 +7,7 @@
 //! format", version 4.2.)
 
 use crate::error::{self, Error, Place, shown};
+use crate::files::Files;
 use crate::limits::{Budget, MOST_PIXELS_IN_ALL};
 use crate::lines::{self, Line};
 use crate::{pictures, text};
@@ -94,8 +95,8 @@ impl Lookup {
 }
 
 impl Library {
-    /// Adds the materials of a file, whose bytes these are.
-    pub fn read(&mut self, file: &Path, bytes: Vec<u8>) -> Result<(), Error> {
+    /// Adds the materials of a file, whose bytes these are; its pictures are among `files`.
+    pub fn read(&mut self, files: Files<'_>, file: &Path, bytes: Vec<u8>) -> Result<(), Error> {
         let text = text::decode_old(file, bytes)?;
         let dir = file.parent().unwrap_or(Path::new(""));
         let mut entries: Vec<Entry> = Vec::new();
@@ -110,7 +111,7 @@ impl Library {
             }
         })?;
         for entry in entries {
-            let material = self.material(&entry).map_err(|e| {
+            let material = self.material(files, &entry).map_err(|e| {
                 let what = format!("material `{}` names", error::line(&entry.name));
                 Error::new(file, what).at(Place::Line(entry.line, None)).passing_on(&e)
             })?;
@@ -122,8 +123,8 @@ impl Library {
         Ok(())
     }
 
-    fn material(&mut self, entry: &Entry) -> Result<Material, Error> {
-        let texture = self.texture(entry)?;
+    fn material(&mut self, files: Files<'_>, entry: &Entry) -> Result<Material, Error> {
+        let texture = self.texture(files, entry)?;
         let default = Material::default();
         let plain = if texture.is_some() { Vec3::ONE } else { default.base_color.truncate() };
         let masked = texture.is_some_and(|t| self.textures[t].rgba.iter().any(|p| p[3] < 255));
@@ -157,17 +158,17 @@ impl Library {
     }
 
     /// The picture of a material, with the mask of map_d as its alpha.
-    fn texture(&mut self, entry: &Entry) -> Result<Option<usize>, Error> {
+    fn texture(&mut self, files: Files<'_>, entry: &Entry) -> Result<Option<usize>, Error> {
         let maps = [&entry.diffuse_map, &entry.opacity_map];
         let is_clamped = maps.into_iter().flatten().any(|map| map.is_clamped);
-        let files = maps.map(|map| map.as_ref().map(|map| map.file.clone()));
-        let key = (files, is_clamped);
+        let named = maps.map(|map| map.as_ref().map(|map| map.file.clone()));
+        let key = (named, is_clamped);
         if let Some(&known) = self.texture_by_files.get(&key) {
             return Ok(known);
         }
         let [color, mask] = &key.0;
-        let color = self.load(entry, color.as_deref(), "its colour and holes are left out")?;
-        let mask = self.load(entry, mask.as_deref(), "it has no holes")?;
+        let color = self.load(files, entry, color.as_deref(), "its colour and holes are left out")?;
+        let mask = self.load(files, entry, mask.as_deref(), "it has no holes")?;
         let texture = match (color, mask) {
             (color, None) => color,
             (None, Some(mask)) => {
@@ -186,14 +187,20 @@ impl Library {
     }
 
     /// Reads a picture; a missing one is noted, with what follows from it.
-    fn load(&mut self, entry: &Entry, path: Option<&Path>, otherwise: &str) -> Result<Option<Texture>, Error> {
+    fn load(
+        &mut self,
+        files: Files<'_>,
+        entry: &Entry,
+        path: Option<&Path>,
+        otherwise: &str,
+    ) -> Result<Option<Texture>, Error> {
         let Some(path) = path else { return Ok(None) };
-        if error::is_missing(path) {
+        if files.is_missing(path) {
             let (name, path) = (error::line(&entry.name), shown(path));
             self.notes.push(format!("material `{name}`: the picture `{path}` is missing: {otherwise}"));
             return Ok(None);
         }
-        pictures::load_within(path, &mut self.pixels).map(Some)
+        pictures::load_within(files, path, &mut self.pixels).map(Some)
     }
 }
 

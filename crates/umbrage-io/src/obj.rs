@@ -10,6 +10,7 @@
 //! B1.)
 
 use crate::error::{self, Error, Place, shown};
+use crate::files::Files;
 use crate::limits::{MOST_CORNERS, MOST_TRIANGLES};
 use crate::lines::{self, Line};
 use crate::model::{Hold, Model, Part, is_usable, is_usable_uv};
@@ -94,17 +95,17 @@ struct Contents {
 }
 
 /// Reads an OBJ file and the material libraries it names.
-pub(crate) fn read(file: &Path) -> Result<Model, Error> {
-    let text = text::decode_old(file, error::read(file)?)?;
+pub(crate) fn read(files: Files<'_>, file: &Path) -> Result<Model, Error> {
+    let text = text::decode_old(file, files.read(file)?)?;
     let mut contents = Contents::default();
-    lines::for_each(file, &text, |line| contents.read_line(file, &line))?;
+    lines::for_each(file, &text, |line| contents.read_line(files, file, &line))?;
     contents.check_indices(file)?;
     let triangles = contents.cut(file)?;
     Ok(contents.into_model(file, &triangles))
 }
 
 impl Contents {
-    fn read_line(&mut self, file: &Path, line: &Line<'_>) -> Result<(), Error> {
+    fn read_line(&mut self, files: Files<'_>, file: &Path, line: &Line<'_>) -> Result<(), Error> {
         match line.keyword {
             "v" => {
                 let position = Vec3::from(line.numbers::<3>()?);
@@ -127,7 +128,7 @@ impl Contents {
             "f" | "fo" => self.read_face(line)?,
             "o" => self.current.object = Some(self.names.number(line.rest)),
             "usemtl" => self.current.material = Some(self.names.number(line.rest)),
-            "mtllib" => self.read_library(file, line)?,
+            "mtllib" => self.read_library(files, file, line)?,
             // Names of groups, smoothing, and display attributes, none of which changes the
             // surface.
             "g" | "s" | "mg" | "vp" | "bevel" | "c_interp" | "d_interp" | "lod" | "shadow_obj" | "trace_obj" => {}
@@ -172,19 +173,19 @@ impl Contents {
 
     /// Reads a material library. A missing one is common, and noted; what is wrong inside one is an
     /// error.
-    fn read_library(&mut self, file: &Path, line: &Line<'_>) -> Result<(), Error> {
+    fn read_library(&mut self, files: Files<'_>, file: &Path, line: &Line<'_>) -> Result<(), Error> {
         let dir = file.parent().unwrap_or(Path::new(""));
         let whole = dir.join(line.rest.replace('\\', "/"));
         // Where that is not one name with spaces, it is several names.
-        let names = if error::is_missing(&whole) { line.rest.split_whitespace().collect() } else { vec![line.rest] };
+        let names = if files.is_missing(&whole) { line.rest.split_whitespace().collect() } else { vec![line.rest] };
         for name in names {
             let path = dir.join(name.replace('\\', "/"));
             if !self.libraries.insert(path.clone()) {
                 continue;
             }
-            if !error::is_missing(&path) {
-                let bytes = error::read(&path).map_err(|e| line.error("`mtllib` names").passing_on(&e))?;
-                self.library.read(&path, bytes)?;
+            if !files.is_missing(&path) {
+                let bytes = files.read(&path).map_err(|e| line.error("`mtllib` names").passing_on(&e))?;
+                self.library.read(files, &path, bytes)?;
                 continue;
             }
             self.library.notes.push(format!(

@@ -183,3 +183,21 @@ fn sixteen_hundred_boxes_of_different_colours_are_one_mesh() {
     let scene = open(&(1..=1600).map(one).collect::<String>()).scene;
     assert_eq!((scene.meshes.len(), scene.materials.len(), scene.instances.len()), (1, 1600, 1600));
 }
+
+#[test]
+fn files_at_hand_are_a_scene_with_all_that_it_names() {
+    let scene = "[[model]]\npath = \"models/a.obj\"\n[[model]]\npath = \"models/../models/a.obj\"\n";
+    let mut files = umbrage_io::Bytes::new();
+    files.insert("room.scene.toml".into(), scene.into());
+    let missing = umbrage_io::open_bytes("room.scene.toml", &files).unwrap_err().to_string();
+    assert!(
+        missing.contains("models/a.obj: is not among") && missing.contains("give `models/a.obj` together"),
+        "{missing}"
+    );
+    files.insert("a.obj".into(), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".into());
+    let opened = umbrage_io::open_bytes("room.scene.toml", &files).unwrap();
+    assert_eq!((opened.scene.meshes.len(), opened.scene.instances.len()), (1, 2));
+    assert_eq!(opened.scene.name, "room");
+    let none = umbrage_io::open_bytes("b.scene.toml", &files).unwrap_err().to_string();
+    assert!(none.contains("b.scene.toml: is not among"), "{none}");
+}

@@ -128,7 +128,7 @@ impl Choice {
     }
 
     /// The registry that it is from: its filters are those that settings may name.
-    pub(crate) fn registry(&self) -> &Registry {
+    pub fn registry(&self) -> &Registry {
         &self.registry
     }
 
@@ -139,7 +139,7 @@ impl Choice {
 
     /// The value of a parameter, [`LIGHT_SAMPLES`] among them; `None` where it is a word, or there
     /// is none of the name.
-    pub(crate) fn number(&self, name: &str) -> Option<f64> {
+    pub fn number(&self, name: &str) -> Option<f64> {
         if name == LIGHT_SAMPLES {
             return self.light_samples.map(f64::from);
         }

@@ -7,7 +7,7 @@ use umbrage_core::Image;
 const SHADER: Shader = Shader::new("given visibility", include_str!("given.wgsl"));
 
 /// Writes one picture, whatever the view.
-pub(crate) struct Given {
+pub struct Given {
     pipeline: wgpu::RenderPipeline,
     picture: wgpu::BindGroup,
     bytes: u64,
@@ -15,7 +15,10 @@ pub(crate) struct Given {
 
 impl Given {
     /// Uploads the picture, which has the size of the frames to come.
-    pub(crate) fn new(gpu: &Gpu, visibility: &Image<f32>) -> Result<Self, Error> {
+    ///
+    /// # Errors
+    /// [`Error::Size`] beyond the adapter's limits.
+    pub fn new(gpu: &Gpu, visibility: &Image<f32>) -> Result<Self, Error> {
         gpu.check_size("a picture of visibility", visibility.width, visibility.height)?;
         let module = SHADER.module(gpu);
         let pipeline = gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {

@@ -5,63 +5,74 @@
 //! floor of the same run; [`Sweep`] puts both together over many settings and asks what is best at
 //! a cost or an error. All walk the registry of `umbrage`: a new technique needs no line here.
 
-mod bench;
-mod cell;
 mod choice;
-mod churn;
-mod column;
-mod compare;
 mod error;
-#[cfg(test)]
-mod fixture;
-mod flicker;
 mod given;
-mod html;
-mod made;
-mod measure;
-mod motion;
-mod output;
 mod path;
-mod pictures;
 mod progress;
-pub mod record;
-mod round;
-mod shot;
 mod source;
-mod spread;
-mod stage;
-mod status;
-mod sweep;
-mod table;
-mod truth;
 
-pub use bench::{Bench, BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene, BenchTraffic};
 pub use choice::{Choice, LIGHT_SAMPLES, RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced};
-pub use column::{COLUMNS, Column, RADIANCE_COLUMNS};
-pub use compare::{Compare, Outcome};
 pub use error::Error;
-pub use html::page;
-pub use made::{Adapter, Machine, Made};
-pub use motion::Moving;
-pub use output::{Folder, check_file};
+pub use given::Given;
 pub use path::CameraPath;
-pub use pictures::Pictures;
 pub use progress::{Progress, Silent};
-pub use record::Report;
-pub use shot::{Aov, Method, Picture, Shot};
 pub use source::Source;
-pub use spread::Spread;
-pub use sweep::{
-    Sweep, SweepOutcome, Vary,
-    answer::{Answer, BUDGETS, Best, Budget, Level},
-    measures::{MEASURES, Measure},
-    record::{Clock, Skipped, SweepCurve, SweepLight, SweepReport, SweepResult, SweepScene, Yardsticks},
-};
-pub use table::tables;
-pub use truth::{Tracing, Truth};
 pub use umbrage_io::printable;
 
-/// Indented JSON with a line end. Plain data with text keys always has a JSON form.
-fn json(data: &impl serde::Serialize) -> String {
-    serde_json::to_string_pretty(data).unwrap_or_default() + "\n"
+/// Browsers have the names of scenes, techniques and ways of the camera. What runs, measures and
+/// writes files waits for the device, and is for other systems.
+macro_rules! not_in_browsers {
+    ($($item:item)*) => { $(#[cfg(not(target_family = "wasm"))] $item)* };
+}
+
+not_in_browsers! {
+    mod bench;
+    mod cell;
+    mod churn;
+    mod column;
+    mod compare;
+    #[cfg(test)]
+    mod fixture;
+    mod flicker;
+    mod html;
+    mod made;
+    mod measure;
+    mod motion;
+    mod output;
+    mod pictures;
+    pub mod record;
+    mod round;
+    mod shot;
+    mod spread;
+    mod stage;
+    mod status;
+    mod sweep;
+    mod table;
+    mod truth;
+
+    pub use bench::{Bench, BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene, BenchTraffic};
+    pub use column::{COLUMNS, Column, RADIANCE_COLUMNS};
+    pub use compare::{Compare, Outcome};
+    pub use html::page;
+    pub use made::{Adapter, Machine, Made};
+    pub use motion::Moving;
+    pub use output::{Folder, check_file};
+    pub use pictures::Pictures;
+    pub use record::Report;
+    pub use shot::{Aov, Method, Picture, Shot};
+    pub use spread::Spread;
+    pub use sweep::{
+        Sweep, SweepOutcome, Vary,
+        answer::{Answer, BUDGETS, Best, Budget, Level},
+        measures::{MEASURES, Measure},
+        record::{Clock, Skipped, SweepCurve, SweepLight, SweepReport, SweepResult, SweepScene, Yardsticks},
+    };
+    pub use table::tables;
+    pub use truth::{Tracing, Truth};
+
+    /// Indented JSON with a line end. Plain data with text keys always has a JSON form.
+    fn json(data: &impl serde::Serialize) -> String {
+        serde_json::to_string_pretty(data).unwrap_or_default() + "\n"
+    }
 }

@@ -53,7 +53,7 @@ impl CameraPath {
     }
 
     /// Where `start` is in frame `frame`, for pictures `height` pixels high.
-    pub(crate) fn camera(self, start: &Camera, frame: u32, height: u32) -> Camera {
+    pub fn camera(self, start: &Camera, frame: u32, height: u32) -> Camera {
         let steps = steps(frame, height);
         let distance = start.eye.distance(start.target);
         let pixel = 2.0 * (start.fov_y_deg.to_radians() * 0.5).tan() / f64::from(height);

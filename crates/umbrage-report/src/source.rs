@@ -37,6 +37,16 @@ impl Source {
         Ok(Self { asked: asked.into(), scene, notes })
     }
 
+    /// Opens the file `name`, one of `files`, which are at hand: dropped on a window or a page.
+    ///
+    /// # Errors
+    /// As [`umbrage_io::open_bytes`].
+    pub fn open_bytes(name: &str, files: &umbrage_io::Bytes) -> Result<Self, Error> {
+        let umbrage_io::Opened { scene, mut notes } = umbrage_io::open_bytes(name, files)?;
+        notes.extend(umbrage_core::precision::notes(&scene));
+        Ok(Self { asked: name.into(), scene, notes })
+    }
+
     /// The light of this number.
     ///
     /// # Errors
@@ -116,6 +126,14 @@ mod tests {
         assert!(text("primitivs").contains("did you mean `primitives`"));
         assert!(text("xyzzy").contains("contact, overlap"));
         assert!(text("missing.obj").contains("missing.obj"));
+    }
+
+    #[test]
+    fn files_that_are_at_hand_open() {
+        let model = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_vec();
+        let files = [("a.obj".to_string(), model)].into();
+        assert_eq!(Source::open_bytes("a.obj", &files).unwrap().scene.triangle_count(), 1);
+        assert!(Source::open_bytes("b.obj", &files).unwrap_err().to_string().contains("b.obj"));
     }
 
     #[test]

@@ -155,14 +155,14 @@ impl<'a> Appearance<'a> {
             }
             (None, Some(uri)) => {
                 let name = buffers::resolve_path(file, uri);
-                if error::is_missing(&name) {
+                if file.files.is_missing(&name) {
                     file.note(format!(
                         "{part}: the picture `{}` is missing: its colour and holes are left out",
                         shown(&name)
                     ));
                     return Ok(None);
                 }
-                pictures::load_within(&name, pixels)
+                pictures::load_within(file.files, &name, pixels)
             }
             (None, None) => return Err(file.error(part, "names neither a file nor a buffer view")),
         };

@@ -1,7 +1,7 @@
 //! Buffers and other bytes that a glTF file refers to.
 
 use super::File;
-use crate::error::{self, Error};
+use crate::error::Error;
 use crate::limits::{Budget, MOST_BYTES};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -50,7 +50,7 @@ pub(super) fn resolve(file: &File<'_>, part: &str, uri: &str) -> Result<Vec<u8>,
         return STANDARD.decode(base64).map_err(|e| file.error(part, format!("its data are not valid base64: {e}")));
     }
     let path = resolve_path(file, uri);
-    error::read(&path).map_err(|e| file.pass_on(part, &e))
+    file.files.read(&path).map_err(|e| file.pass_on(part, &e))
 }
 
 /// The file that a relative URI names.

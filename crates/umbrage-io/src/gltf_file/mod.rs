@@ -17,6 +17,7 @@ mod scenery;
 mod skin;
 
 use crate::error::{self, Error, Place, shown};
+use crate::files::Files;
 use crate::limits::MOST_INSTANCES;
 use crate::model::{Hold, Model, Part};
 use accessor::Accessors;
@@ -30,6 +31,8 @@ use umbrage_core::Mesh;
 /// The file being read, for errors and notes.
 struct File<'a> {
     path: &'a Path,
+    /// Where those are that it names.
+    files: Files<'a>,
     /// Sorted, each once.
     notes: BTreeSet<String>,
 }
@@ -51,9 +54,9 @@ impl File<'_> {
 }
 
 /// Reads a glTF file and those it refers to.
-pub(crate) fn read(path: &Path) -> Result<Model, Error> {
-    let mut file = File { path, notes: BTreeSet::new() };
-    let (document, blob) = document::parse(&mut file, error::read(path)?)?;
+pub(crate) fn read(files: Files<'_>, path: &Path) -> Result<Model, Error> {
+    let mut file = File { path, files, notes: BTreeSet::new() };
+    let (document, blob) = document::parse(&mut file, files.read(path)?)?;
     let buffers = buffers::read(&file, &document, blob)?;
     let accessors = Accessors::new(path, &buffers);
     let nodes = Nodes::read(&file, &document)?;

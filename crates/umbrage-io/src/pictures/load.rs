@@ -1,6 +1,7 @@
 //! Pictures from files.
 
 use crate::error::{self, Error};
+use crate::files::Files;
 use crate::limits::{Budget, MOST_PIXELS, MOST_PIXELS_IN_ALL};
 use exr::prelude::{AnyChannels, FlatSamples, MetaData, ReadChannels, ReadLayers};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
@@ -25,8 +26,8 @@ pub fn texture_from_bytes(name: &Path, bytes: &[u8]) -> Result<Texture, Error> {
 }
 
 /// Reads a texture as [`load_texture`] does, as long as there are pixels left.
-pub(crate) fn load_within(path: &Path, pixels: &mut Budget) -> Result<Texture, Error> {
-    texture_within(path, &error::read(path)?, pixels)
+pub(crate) fn load_within(files: Files<'_>, path: &Path, pixels: &mut Budget) -> Result<Texture, Error> {
+    texture_within(path, &files.read(path)?, pixels)
 }
 
 /// The same from bytes.

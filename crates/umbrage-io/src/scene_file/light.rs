@@ -1,6 +1,7 @@
 //! `[[light]]`.
 
 use super::reader::{Table, Value, is_positive};
+use crate::files::Files;
 use crate::limits::{Budget, MOST_PIXELS_IN_ALL};
 use crate::{Error, pictures};
 use glam::{DMat3, DVec3};
@@ -24,6 +25,7 @@ const KINDS: [(&str, &[&str]); 8] = [
 
 /// Reads lights; the textures of rects go into the scene, each once.
 pub(super) struct Lights<'a> {
+    files: Files<'a>,
     /// What paths are relative to.
     dir: &'a Path,
     /// Index into the scene's textures by file.
@@ -32,9 +34,9 @@ pub(super) struct Lights<'a> {
 }
 
 impl<'a> Lights<'a> {
-    /// Paths are relative to `dir`.
-    pub fn new(dir: &'a Path) -> Self {
-        Self { dir, textures: HashMap::new(), pixels: Budget::new(MOST_PIXELS_IN_ALL) }
+    /// Paths are relative to `dir` among `files`.
+    pub fn new(files: Files<'a>, dir: &'a Path) -> Self {
+        Self { files, dir, textures: HashMap::new(), pixels: Budget::new(MOST_PIXELS_IN_ALL) }
     }
 
     /// The light of a table.
@@ -47,7 +49,8 @@ impl<'a> Lights<'a> {
         if let Some(known) = self.textures.get(&file) {
             return Ok(*known);
         }
-        let texture = pictures::load_within(&file, &mut self.pixels).map_err(|e| path.error("names").passing_on(&e))?;
+        let texture = pictures::load_within(self.files, &file, &mut self.pixels)
+            .map_err(|e| path.error("names").passing_on(&e))?;
         scene.textures.push(texture);
         self.textures.insert(file, scene.textures.len() - 1);
         Ok(scene.textures.len() - 1)

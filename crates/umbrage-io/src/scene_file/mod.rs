@@ -4,6 +4,7 @@ mod light;
 mod model;
 mod reader;
 
+use crate::files::Files;
 use crate::{Error, Opened, defaults, finish, title};
 use light::Lights;
 use model::Models;
@@ -12,8 +13,8 @@ use std::path::Path;
 use toml::de::DeTable;
 use umbrage_core::{Camera, Scene};
 
-/// Reads the text of a scene file. Paths in it are relative to `dir`; errors call it `file`.
-pub(crate) fn read(text: &str, dir: &Path, file: &Path) -> Result<Opened, Error> {
+/// Reads the text of a scene file. Paths in it are relative to `dir` among `files`; errors call it `file`.
+pub(crate) fn read(files: Files<'_>, text: &str, dir: &Path, file: &Path) -> Result<Opened, Error> {
     let source = Source { file, text };
     let document = DeTable::parse(text).map_err(|e| {
         let end = text.len()..text.len();
@@ -30,14 +31,14 @@ pub(crate) fn read(text: &str, dir: &Path, file: &Path) -> Result<Opened, Error>
         scene.ambient = ambient.get_or("color", scene.ambient, Value::color)?;
     }
     let camera = root.get("camera").map(|c| read_camera(&c.table()?)).transpose()?;
-    let mut models = Models::new(dir);
+    let mut models = Models::new(files, dir);
     if let Some(tables) = root.get("model") {
         for (index, table) in tables.tables()?.iter().enumerate() {
             models.read(&mut scene, index, table)?;
         }
     }
     if let Some(tables) = root.get("light") {
-        let mut lights = Lights::new(dir);
+        let mut lights = Lights::new(files, dir);
         for table in tables.tables()? {
             let light = lights.read(&mut scene, &table)?;
             scene.lights.push(light);

@@ -3,6 +3,7 @@
 use super::light::rotation;
 use super::reader::{Table, Value, is_positive};
 use crate::error::{Error, shown};
+use crate::files::Files;
 use crate::limits::{Budget, MOST_INSTANCES, MOST_TRIANGLES};
 use crate::model::{Bases, Model, Placement};
 use glam::{DAffine3, DMat3, DVec3};
@@ -42,6 +43,7 @@ enum Shape {
 
 /// Reads models one by one, each file, unit mesh and material once.
 pub(super) struct Models<'a> {
+    place: Files<'a>,
     dir: &'a Path,
     files: HashMap<PathBuf, (Model, Bases)>,
     shapes: HashMap<Shape, usize>,
@@ -52,9 +54,10 @@ pub(super) struct Models<'a> {
 }
 
 impl<'a> Models<'a> {
-    /// Paths are relative to `dir`.
-    pub fn new(dir: &'a Path) -> Self {
+    /// Paths are relative to `dir` among the files of `place`.
+    pub fn new(place: Files<'a>, dir: &'a Path) -> Self {
         Self {
+            place,
             dir,
             files: HashMap::new(),
             shapes: HashMap::new(),
@@ -144,9 +147,9 @@ impl<'a> Models<'a> {
     ) -> Result<(), Error> {
         let file = self.dir.join(path.string()?);
         // The same file may be named in several ways.
-        let key = file.canonicalize().unwrap_or_else(|_| file.clone());
+        let key = self.place.one_name(&file);
         if !self.files.contains_key(&key) {
-            let model = Model::read(&file).map_err(|e| path.error("names").passing_on(&e))?;
+            let model = Model::read(self.place, &file).map_err(|e| path.error("names").passing_on(&e))?;
             let count = model.meshes.iter().map(|m| m.triangle_count() as u64).sum();
             if !self.triangles.take(count) {
                 return Err(too_many(path));

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 use umbrage_core::glam::{DVec2, DVec3, Vec2};
 use umbrage_core::{Image, Instance, Scene};
-use umbrage_io::{Opened, open, pictures};
+use umbrage_io::{Opened, open, open_bytes, pictures};
 
 /// A file to open, and those beside it.
 pub struct Input {
@@ -37,10 +37,18 @@ impl Input {
         (dir, path)
     }
 
-    /// Opens what has to open.
+    /// Opens what has to open, from the disk and from memory: both have to be the same.
     pub fn open(&self, name: &str) -> Opened {
         let (_dir, path) = self.write();
-        open(&path).unwrap_or_else(|e| panic!("{name}: {e}"))
+        let opened = open(&path).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let files = self.files.iter().map(|(name, bytes)| ((*name).to_string(), bytes.clone())).collect();
+        let at_hand = open_bytes(self.name, &files).unwrap_or_else(|e| panic!("{name} from memory: {e}"));
+        let text = |scene: &Scene| format!("{:?} {:?} {:?}", scene.meshes, scene.instances, scene.materials);
+        let pictures = |scene: &Scene| scene.textures.iter().map(|t| (t.width, t.rgba.clone())).collect::<Vec<_>>();
+        assert!(text(&opened.scene) == text(&at_hand.scene), "{name} is another scene from memory");
+        assert!(pictures(&opened.scene) == pictures(&at_hand.scene), "{name} has other pictures from memory");
+        assert_eq!(opened.notes.len(), at_hand.notes.len(), "{name}: {:?}", at_hand.notes);
+        opened
     }
 }
 

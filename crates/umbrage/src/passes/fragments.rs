@@ -3,6 +3,7 @@
 use super::{Owner, queries::Queries};
 #[cfg(not(target_family = "wasm"))]
 use crate::fullscreen::{Fullscreen, attachment, target_texture};
+#[cfg(not(target_family = "wasm"))]
 use crate::gpu::Gpu;
 #[cfg(not(target_family = "wasm"))]
 use crate::shader::Shader;
