@@ -12,11 +12,14 @@ mod check;
 mod draw_list;
 mod edges;
 mod eye_tree;
+mod form;
 mod geometry;
 mod host;
 mod ids;
 mod instances;
 mod journal;
+mod lending;
+mod lent;
 mod material;
 mod moves;
 mod pipeline;
@@ -38,19 +41,26 @@ pub(crate) use before_eye::before_eye;
 pub(crate) use draw_list::{DrawList, InstanceNumbers, Light, Surface};
 pub(crate) use edges::{Edges, MeshEdges, Reads};
 pub(crate) use eye_tree::largest_stretch;
+pub(crate) use form::{ByForm, Form};
+pub use geometry::Vertices;
 pub(crate) use host::refuse as refuse_host_casters;
 pub use host::{CasterView, HostCasters, Needs};
 pub use ids::{InstanceId, MaterialId, MeshId, TextureId};
 pub use instances::Placement;
+pub use lent::{LentIndices, LentInstances, LentMatrices, LentMesh, LentShape, LentVertices, MatrixForm};
 pub(crate) use pipeline::CasterDraw;
 pub(crate) use placed::Placed;
 pub(crate) use places::Places;
 pub(crate) use planes::{ScenePlane, ScenePlanes};
-pub(crate) use poses::SHADERS;
 pub use seen::SeenCasters;
 pub use world::Casters;
 
-use crate::shader::Shared;
+use crate::shader::{Shader, Shared};
 
 /// What the host has to agree on with the modules of this folder.
 pub(crate) const SHARED: &[Shared] = &[placed::SHARED, material::SHARED, edges::SHARED, poses::SHARED];
+
+/// All shaders of this folder.
+pub(crate) fn shaders() -> impl Iterator<Item = &'static Shader> {
+    poses::SHADERS.iter().chain(lent::SHADERS)
+}

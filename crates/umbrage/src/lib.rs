@@ -84,7 +84,8 @@ mod warm_up;
 
 pub use answer::{Answer, RadianceTarget};
 pub use casters::{
-    CasterView, Casters, HostCasters, InstanceId, MaterialId, MeshId, Needs, Placement, SeenCasters, TextureId,
+    CasterView, Casters, HostCasters, InstanceId, LentIndices, LentInstances, LentMatrices, LentMesh, LentShape,
+    LentVertices, MaterialId, MatrixForm, MeshId, Needs, Placement, SeenCasters, TextureId, Vertices,
 };
 pub use deliver::{Coarse, Deliver, Upsample};
 pub use error::{Error, nearest};
@@ -120,7 +121,7 @@ pub mod wgsl {
 pub fn shaders() -> Vec<Shader> {
     let own = techniques().iter().flat_map(|t| t.shaders);
     own.chain([&light_samples::SHADER])
-        .chain(casters::SHADERS)
+        .chain(casters::shaders())
         .chain(baseline::SHADERS)
         .chain(&resolve::SHADERS)
         .chain(&deliver::SHADERS)

@@ -10,6 +10,8 @@ pub(super) struct Batch {
     /// Index into the textures.
     pub texture: Option<u32>,
     pub masked: bool,
+    /// The one place whose matrices a host has, where it is that.
+    pub many: Option<u32>,
     members: u32,
 }
 
@@ -21,6 +23,8 @@ pub(super) struct Key {
     pub texture: Option<u64>,
     pub is_posed: bool,
     pub mesh: u64,
+    /// When an instance came whose matrices a host has; 0 for others.
+    pub many: u64,
 }
 
 /// All that have members.
@@ -34,10 +38,10 @@ pub(super) struct Batches {
 
 impl Batches {
     /// The batch of an instance that came.
-    pub fn join(&mut self, key: Key, mesh: u32, texture: Option<u32>) -> u32 {
+    pub fn join(&mut self, key: Key, mesh: u32, texture: Option<u32>, many: Option<u32>) -> u32 {
         let number = match self.by_key.get(&key) {
             Some(number) => *number,
-            None => self.start(Batch { key, mesh, texture, masked: key.masked, members: 0 }),
+            None => self.start(Batch { key, mesh, texture, masked: key.masked, many, members: 0 }),
         };
         self.all[number as usize].members += 1;
         number
@@ -95,12 +99,12 @@ mod tests {
 
     #[test]
     fn batches_are_in_order_whatever_came_and_went() {
-        let key = |mesh| Key { masked: mesh % 2 == 1, texture: Some(mesh % 3), is_posed: false, mesh };
+        let key = |mesh| Key { masked: mesh % 2 == 1, texture: Some(mesh % 3), is_posed: false, mesh, many: 0 };
         let mut batches = Batches::default();
         let mut held: Vec<(u64, u32)> = Vec::new();
         for round in 0..300_u64 {
             let mesh = round * 7 % 17;
-            held.push((mesh, batches.join(key(mesh), mesh as u32, None)));
+            held.push((mesh, batches.join(key(mesh), mesh as u32, None, None)));
             if round % 3 != 0 {
                 let (mesh, number) = held.swap_remove((round * 5) as usize % held.len());
                 assert_eq!(batches.get(number).mesh, mesh as u32);

@@ -1,6 +1,6 @@
 //! Which instances a view draws.
 
-use super::geometry::Geometry;
+use super::form::{Form, MATRICES, NUMBERS};
 use super::placed::Placed;
 use super::world::Casters;
 use crate::{gpu::Gpu, passes::Passes};
@@ -106,7 +106,7 @@ impl InstanceNumbers {
         let mut next = self.numbers.len() as u32;
         for &number in casters.batches.order() {
             let (batch, slots) = (casters.batches.get(number), &mut self.slots[number as usize]);
-            let is_empty = casters.meshes()[batch.mesh as usize].mesh.indices.is_empty();
+            let is_empty = casters.meshes()[batch.mesh as usize].index_count() == 0;
             let open = if batch.masked { Surface::Masked } else { Surface::Open };
             for (slot, surface) in slots.iter_mut().zip([open, Surface::Solid]) {
                 let first = next;
@@ -131,39 +131,52 @@ impl InstanceNumbers {
         }
     }
 
-    /// Draws a list with positions in vertex buffer 0, instance numbers in 1 and attributes in 2,
-    /// each surface with its `pipeline`. Textures are bound as group 2 for alpha-masked meshes, and
-    /// for all where `textured`.
+    /// Draws a list with positions in vertex buffer 0, instance numbers in 1, attributes in 2 and
+    /// matrices of a host's in 3, each surface and form of buffers with its `pipeline`; nothing
+    /// where there is none. Textures are bound as group 2 for alpha-masked meshes, and for all
+    /// where `textured`.
     pub fn draw<'p>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         casters: &Casters,
         list: &DrawList,
         textured: bool,
-        pipeline: impl Fn(Surface) -> &'p wgpu::RenderPipeline,
+        pipeline: impl Fn(Surface, &Form) -> Option<&'p wgpu::RenderPipeline>,
     ) {
         let Some(numbers) = &self.buffer else { return };
         pass.set_bind_group(1, &casters.bind_group, &[]);
-        pass.set_vertex_buffer(0, casters.positions().slice(..));
-        pass.set_vertex_buffer(1, numbers.slice(..));
-        pass.set_vertex_buffer(2, casters.geometry.attributes.buffer().slice(..));
-        let mut current = None;
+        let (mut current, mut bound, mut has_numbers) = (None, None, false);
         for Draw { batch, surface, instances } in &list.draws {
             let batch = casters.batches.get(*batch);
             let part = &casters.meshes()[batch.mesh as usize];
-            if current != Some(surface) {
-                current = Some(surface);
-                pass.set_pipeline(pipeline(*surface));
-                // Small meshes cost what their vertices cost, and a box has three times as many as
-                // places.
-                let Geometry { indices, welded, .. } = &casters.geometry;
-                let indices = if textured || batch.masked { indices } else { welded };
-                pass.set_index_buffer(indices.buffer().slice(..), wgpu::IndexFormat::Uint32);
+            let many = batch.many.and_then(|place| casters.placed[place as usize].many.as_ref());
+            let form = part.form(many.map(|many| &many.matrices));
+            let Some(pipeline) = pipeline(*surface, &form) else { continue };
+            if current != Some((*surface, form)) {
+                current = Some((*surface, form));
+                pass.set_pipeline(pipeline);
             }
-            if textured || batch.masked {
+            let reads_uvs = textured || batch.masked;
+            // The library's meshes are parts of the same buffers.
+            let source = (part.lent.is_some().then_some(batch.mesh), reads_uvs);
+            if bound != Some(source) {
+                bound = Some(source);
+                casters.geometry.bind(pass, part, reads_uvs);
+            }
+            if reads_uvs {
                 pass.set_bind_group(2, casters.appearance.group(batch.texture), &[]);
             }
-            pass.draw_indexed(part.indices(), part.base_vertex as i32, instances.clone());
+            let Some(many) = many else {
+                if !std::mem::replace(&mut has_numbers, true) {
+                    pass.set_vertex_buffer(NUMBERS, numbers.slice(..));
+                }
+                pass.draw_indexed(part.drawn(), part.drawn_from(), instances.clone());
+                continue;
+            };
+            has_numbers = false;
+            pass.set_vertex_buffer(NUMBERS, numbers.slice(4 * u64::from(instances.start)..));
+            pass.set_vertex_buffer(MATRICES, many.matrices.buffer.slice(many.matrices.offset..));
+            pass.draw_indexed(part.drawn(), part.drawn_from(), 0..many.matrices.count);
         }
     }
 
@@ -192,8 +205,10 @@ impl DrawList {
     /// Triangles drawn.
     pub fn triangles(&self, casters: &Casters) -> u64 {
         let of = |Draw { batch, instances, .. }: &Draw| {
-            let part = &casters.meshes()[casters.batches.get(*batch).mesh as usize];
-            part.mesh.triangle_count() as u64 * u64::from(instances.end - instances.start)
+            let batch = casters.batches.get(*batch);
+            let many = batch.many.and_then(|place| casters.placed[place as usize].many.as_ref());
+            let count = many.map_or(instances.end - instances.start, |many| many.matrices.count);
+            u64::from(casters.meshes()[batch.mesh as usize].index_count() / 3) * u64::from(count)
         };
         self.draws.iter().map(of).sum()
     }

@@ -1,7 +1,9 @@
 //! The meshes in shared buffers: where each lies, and what the CPU knows of it.
 
+use super::form::{ATTRIBUTES, Form, POSITIONS, Stream, Uvs};
 use super::ids::Slots;
 use super::journal::Journal;
+use super::lent::{Lent, LentMatrices, LentMesh, LentShape};
 use super::store::{Parts, Store};
 use super::vertices::{attributes, weights};
 use crate::{error::Error, gpu::Gpu};
@@ -20,6 +22,9 @@ pub(crate) struct MeshPart {
     pub version: u64,
     /// Of a posed instance's own mesh, the mesh that it is made of.
     pub source: Option<u32>,
+    /// Where it is drawn from, where that is not here. Vertices and triangles that are known are
+    /// here as well, for edges.
+    pub lent: Option<Lent>,
     pub(super) bounds: Bounds,
     pub(super) plane: Option<DVec4>,
     /// It is the surface of a convex body.
@@ -44,6 +49,7 @@ impl MeshPart {
             base_vertex: 0,
             version: 0,
             source: None,
+            lent: None,
             bounds: Bounds::EMPTY,
             plane: None,
             solid: false,
@@ -56,9 +62,57 @@ impl MeshPart {
         }
     }
 
-    pub(super) fn indices(&self) -> Range<u32> {
-        self.first_index..self.first_index + self.mesh.indices.len() as u32
+    /// How many indices are drawn.
+    pub fn index_count(&self) -> u32 {
+        self.lent.as_ref().map_or(self.mesh.indices.len() as u32, |lent| lent.indices.range.len() as u32)
     }
+
+    /// The GPU alone knows where its vertices are.
+    pub fn is_moving(&self) -> bool {
+        self.lent.as_ref().is_some_and(|lent| lent.is_moving)
+    }
+
+    /// Nobody knows its triangles.
+    pub fn is_unknown(&self) -> bool {
+        self.lent.as_ref().is_some_and(|lent| lent.is_unknown)
+    }
+
+    /// Indices to draw, of the buffer that [`Geometry::bind`] binds.
+    pub(super) fn drawn(&self) -> Range<u32> {
+        match &self.lent {
+            Some(lent) => lent.indices.range.clone(),
+            None => self.first_index..self.first_index + self.mesh.indices.len() as u32,
+        }
+    }
+
+    /// What is added to these.
+    pub(super) fn drawn_from(&self) -> i32 {
+        self.lent.as_ref().map_or(self.base_vertex, |lent| lent.indices.base_vertex) as i32
+    }
+
+    /// The buffers that are drawn from.
+    pub(super) fn form(&self, matrices: Option<&LentMatrices>) -> Form {
+        let matrices = matrices.map(|m| (m.form, m.stride));
+        let Some(lent) = &self.lent else { return Form { matrices, ..Form::OWN } };
+        let uvs = lent.uvs.as_ref().map_or(Uvs::Nothing, |uvs| Uvs::Lent(Stream::of(uvs)));
+        Form { positions: Stream::of(&lent.positions), uvs, matrices }
+    }
+}
+
+/// Where the vertices of an instance lie in the library's buffers. They may lie elsewhere after
+/// meshes or instances came or went: ask again in every frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Vertices<'a> {
+    /// Three 32-bit floats each, in mesh space; of an instance with joints as these have bent it.
+    pub positions: wgpu::BufferSlice<'a>,
+    /// Six 32-bit floats each: the normal, the texture coordinate, and the opacity.
+    pub attributes: wgpu::BufferSlice<'a>,
+    /// Three 32-bit numbers a triangle, the first vertex being 0.
+    pub indices: wgpu::BufferSlice<'a>,
+    /// How many vertices there are.
+    pub vertex_count: u32,
+    /// How many indices there are.
+    pub index_count: u32,
 }
 
 /// All meshes.
@@ -73,6 +127,8 @@ pub(super) struct Geometry {
     /// By number: those of scenes and hosts, and those of posed instances.
     pub meshes: Vec<MeshPart>,
     pub slots: Slots,
+    /// Texture coordinates of lent meshes that have none.
+    nothing: wgpu::Buffer,
     parts: [Parts; 3],
     changes: u64,
 }
@@ -98,6 +154,7 @@ impl Geometry {
             weights: Store::new(gpu, "weights", 4, sizes.weights)?,
             meshes: Vec::new(),
             slots: Slots::new("mesh", of),
+            nothing: gpu.buffer("no texture coordinates", &[0_f32; 4], Usage::VERTEX),
             parts: [Parts::new(), Parts::new(), Parts::new()],
             changes: 0,
         })
@@ -171,14 +228,113 @@ impl Geometry {
     pub fn replace(&mut self, gpu: &Gpu, journal: &mut Journal, number: u32, mesh: &Mesh) -> Result<(), Error> {
         check(mesh)?;
         let [vertices, indices, weights] = self.take_all(gpu, journal, mesh)?;
+        self.clear(number);
         let part = &mut self.meshes[number as usize];
-        let old = [&mut part.vertices, &mut part.indices, &mut part.weights].map(std::mem::take);
         (part.first_index, part.base_vertex) = (indices.start, vertices.start);
         (part.vertices, part.indices, part.weights) = (vertices, indices, weights);
-        self.parts.iter_mut().zip(old).for_each(|(parts, part)| parts.give_back(part));
+        part.lent = None;
         self.fill(journal, number, mesh);
         self.write_triangles(journal, number, mesh);
         Ok(())
+    }
+
+    /// Adds a mesh that is lent; its number.
+    pub fn lend(&mut self, gpu: &Gpu, journal: &mut Journal, mesh: &LentMesh<'_>) -> Result<u32, Error> {
+        let parts = self.take(gpu, journal, counts(mesh))?;
+        let number = self.slot();
+        self.changes += 1;
+        self.meshes[number as usize] = MeshPart { order: self.changes, ..MeshPart::nothing() };
+        self.fill_lent(journal, number, mesh, parts);
+        Ok(number)
+    }
+
+    /// Puts a mesh that is lent in the place of one, which stays as it is where there is an error.
+    pub fn lend_again(
+        &mut self,
+        gpu: &Gpu,
+        journal: &mut Journal,
+        number: u32,
+        mesh: &LentMesh<'_>,
+    ) -> Result<(), Error> {
+        let parts = self.take(gpu, journal, counts(mesh))?;
+        self.clear(number);
+        self.fill_lent(journal, number, mesh, parts);
+        Ok(())
+    }
+
+    /// Gives the memory of a mesh back.
+    fn clear(&mut self, number: u32) {
+        let part = &mut self.meshes[number as usize];
+        let old = [&mut part.vertices, &mut part.indices, &mut part.weights].map(std::mem::take);
+        self.parts.iter_mut().zip(old).for_each(|(parts, part)| parts.give_back(part));
+    }
+
+    /// What is known of a mesh that is lent.
+    fn fill_lent(
+        &mut self,
+        journal: &mut Journal,
+        number: u32,
+        mesh: &LentMesh<'_>,
+        [vertices, indices]: [Range<u32>; 2],
+    ) {
+        self.changes += 1;
+        let part = &mut self.meshes[number as usize];
+        (part.first_index, part.base_vertex) = (indices.start, vertices.start);
+        (part.vertices, part.indices) = (vertices, indices);
+        part.version = self.changes;
+        part.lent = Some(Lent::of(mesh));
+        part.bounds = mesh.shape.bounds();
+        (part.plane, part.solid) = match mesh.shape {
+            LentShape::Rigid(known) => (known.plane(), is_convex_solid(known)),
+            _ => (None, false),
+        };
+        let known = mesh.shape.mesh().map(|known| Mesh {
+            positions: known.positions.clone(),
+            indices: known.indices.clone(),
+            ..Mesh::default()
+        });
+        let known = known.unwrap_or_default();
+        self.positions.write(journal, part.base_vertex, &known.positions);
+        self.indices.write(journal, part.first_index, &known.indices);
+        part.mesh = Arc::new(known);
+    }
+
+    /// Has draws read the vertices and indices of a mesh, in buffers as [`MeshPart::form`] says.
+    pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, part: &MeshPart, reads_uvs: bool) {
+        let Some(Lent { positions, uvs, indices, .. }) = &part.lent else {
+            pass.set_vertex_buffer(POSITIONS, self.positions.buffer().slice(..));
+            pass.set_vertex_buffer(ATTRIBUTES, self.attributes.buffer().slice(..));
+            // Small meshes cost what their vertices cost, and a box has three times as many as
+            // places.
+            let indices = if reads_uvs { &self.indices } else { &self.welded };
+            pass.set_index_buffer(indices.buffer().slice(..), wgpu::IndexFormat::Uint32);
+            return;
+        };
+        pass.set_vertex_buffer(POSITIONS, positions.buffer.slice(positions.offset..));
+        match uvs {
+            Some(uvs) => pass.set_vertex_buffer(ATTRIBUTES, uvs.buffer.slice(uvs.offset..)),
+            None => pass.set_vertex_buffer(ATTRIBUTES, self.nothing.slice(..)),
+        }
+        pass.set_index_buffer(indices.buffer.slice(..), indices.format);
+    }
+
+    /// Where draws of a host's own find a mesh.
+    pub fn vertices(&self, part: &MeshPart) -> Vertices<'_> {
+        let (vertex_count, index_count) = (part.mesh.positions.len() as u32, part.index_count());
+        Vertices {
+            positions: self.positions.slice(part.base_vertex, vertex_count),
+            attributes: self.attributes.slice(part.base_vertex, vertex_count),
+            indices: self.indices.slice(part.first_index, index_count),
+            vertex_count,
+            index_count,
+        }
+    }
+
+    /// Another box around a lent mesh that has moved.
+    pub fn touch(&mut self, number: u32, bounds: Bounds) {
+        self.changes += 1;
+        let part = &mut self.meshes[number as usize];
+        (part.version, part.bounds) = (self.changes, bounds);
     }
 
     /// Gives a mesh other vertices, as many as it has.
@@ -277,6 +433,11 @@ impl Geometry {
         self.indices.write(journal, part.first_index, &mesh.indices);
         self.welded.write(journal, part.first_index, &mesh.welded_indices());
     }
+}
+
+/// Vertices and indices that there has to be room for.
+fn counts(mesh: &LentMesh<'_>) -> [usize; 2] {
+    mesh.shape.mesh().map_or([0; 2], |known| [known.positions.len(), known.indices.len()])
 }
 
 /// Indices that lead somewhere.

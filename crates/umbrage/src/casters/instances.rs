@@ -3,11 +3,13 @@
 use super::batches::Key;
 use super::check::transform;
 use super::ids::{InstanceId, MaterialId, MeshId};
+use super::lent::Many;
 use super::placed::{Placed, Wanted, is_outward, moved_plane};
 use super::poses;
 use super::sides::Sides;
 use super::world::Casters;
 use crate::error::Error;
+use std::sync::Arc;
 use umbrage_core::glam::DAffine3;
 
 /// A mesh to be placed in the world.
@@ -44,6 +46,7 @@ pub(super) struct Numbered {
     pub world_from_mesh: DAffine3,
     pub wanted: Wanted,
     pub joints: Option<Vec<DAffine3>>,
+    pub many: Option<Arc<Many>>,
     pub model: u32,
 }
 
@@ -65,6 +68,7 @@ impl Casters {
             world_from_mesh: new.world_from_mesh,
             wanted: Wanted { casts: new.casts, receives: new.receives },
             joints: new.joints.clone(),
+            many: None,
             model: new.model,
         })?;
         self.id_at(place).map(InstanceId).ok_or(Error::Handle { what: "instance" })
@@ -87,7 +91,8 @@ impl Casters {
         self.solid.make_room(place);
         self.placed[place as usize] = Placed {
             mesh: own.unwrap_or(new.mesh),
-            posed: own.is_some(),
+            has_own_mesh: own.is_some(),
+            many: new.many,
             world_from_mesh: new.world_from_mesh,
             material: new.material,
             wanted: new.wanted,
@@ -132,9 +137,9 @@ impl Casters {
         self.track(place);
         self.leave_mesh(place);
         self.leave_material(place);
-        let Placed { mesh, posed, batch, .. } = self.placed[place as usize];
+        let Placed { mesh, has_own_mesh, batch, .. } = self.placed[place as usize];
         self.batches.leave(batch);
-        if posed {
+        if has_own_mesh {
             self.unbend(mesh);
         }
         self.placed[place as usize] = Placed::nothing();
@@ -239,9 +244,13 @@ impl Casters {
     pub(super) fn shape(&mut self, place: u32) {
         let placed = &mut self.placed[place as usize];
         let part = &self.geometry.meshes[placed.mesh as usize];
+        let many = placed.many.as_ref();
+        placed.posed = placed.has_own_mesh || part.is_moving() || part.is_unknown() || many.is_some();
         placed.sides = Sides::of(&placed.world_from_mesh);
-        placed.bounds = part.bounds.transformed(&placed.world_from_mesh);
-        placed.plane = part.plane.map(|p| moved_plane(p, &placed.world_from_mesh));
+        let bounds = many.map_or(part.bounds, |many| many.bounds);
+        placed.bounds = bounds.transformed(&placed.world_from_mesh);
+        let plane = part.plane.filter(|_| many.is_none());
+        placed.plane = plane.map(|p| moved_plane(p, &placed.world_from_mesh));
         self.look(place);
     }
 
@@ -251,10 +260,22 @@ impl Casters {
         let look = &self.appearance.looks[placed.material as usize];
         placed.masked = look.masked;
         let part = &self.geometry.meshes[placed.mesh as usize];
-        self.solid.set(place, part.solid && !look.masked && is_outward(&placed.world_from_mesh));
+        let is_solid = part.solid && !look.masked && placed.many.is_none();
+        self.solid.set(place, is_solid && is_outward(&placed.world_from_mesh));
         let texture = look.texture.map(|texture| self.appearance.pictures[texture as usize].order);
-        let key = Key { masked: look.masked, texture, is_posed: placed.posed, mesh: part.order };
-        let batch = self.batches.join(key, placed.mesh, look.texture);
+        let many = placed.many.as_ref();
+        let key = Key {
+            masked: look.masked,
+            texture,
+            is_posed: placed.has_own_mesh,
+            mesh: part.order,
+            many: many.map_or(0, |_| placed.order),
+        };
+        let batch = self.batches.join(key, placed.mesh, look.texture, many.map(|_| place));
+        let form = part.form(many.map(|many| &many.matrices));
+        if !self.forms.contains(&form) {
+            self.forms.push(form);
+        }
         // The first batch of one that has just come is the one that it has.
         if std::mem::replace(&mut placed.is_batched, true) {
             self.batches.leave(placed.batch);
@@ -283,6 +304,9 @@ impl Casters {
         }
         let part = &mut self.geometry.meshes[placed.mesh as usize];
         part.casting = part.casting + u32::from(casts) - u32::from(did_cast);
+        let is_blind = casts && (part.is_unknown() || placed.many.is_some());
+        let was_blind = std::mem::replace(&mut placed.is_blind, is_blind);
+        self.blind = self.blind + u32::from(is_blind) - u32::from(was_blind);
         self.changed.push(place);
         if let Some(planes) = self.receiver_planes.get_mut() {
             planes.note(place);

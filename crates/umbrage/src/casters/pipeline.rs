@@ -1,12 +1,15 @@
 //! The pipelines of passes that draw casters.
 
-use super::{Casters, material::texture_layout, vertices::vertex_layouts};
+use super::form::Form;
+use super::{Casters, material::texture_layout};
 use crate::gpu::Gpu;
 
 /// What pipelines that draw casters differ in. Group 1 is the casters'.
 pub(crate) struct CasterDraw<'a> {
     /// For messages of the driver.
     pub label: &'a str,
+    /// The buffers that it reads.
+    pub form: Form,
     /// Group 0, what casters are drawn into.
     pub view: &'a wgpu::BindGroupLayout,
     /// Group 2 is the texture of a caster, as where it has an alpha mask.
@@ -35,15 +38,27 @@ impl CasterDraw<'_> {
         let (casters, textures) = (Casters::layout(gpu), texture_layout(gpu));
         let groups = [Some(self.view), Some(&casters), Some(&textures), self.more];
         let count = if self.more.is_some() { 4 } else { 2 + usize::from(self.textured) };
+        let reads_uvs = self.vertex.starts_with("masked");
+        let (entry, constants) = (self.form.entry(self.vertex), self.form.constants(reads_uvs));
+        let layout = gpu.pipeline_layout(&groups[..count]);
+        self.form.with_layouts(reads_uvs, |buffers| {
+            let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+            let (module, entry_point) = (self.module, Some(&*entry));
+            let vertex = wgpu::VertexState { module, entry_point, compilation_options, buffers };
+            self.with_vertices(gpu, &layout, vertex)
+        })
+    }
+
+    fn with_vertices(
+        &self,
+        gpu: &Gpu,
+        layout: &wgpu::PipelineLayout,
+        vertex: wgpu::VertexState<'_>,
+    ) -> wgpu::RenderPipeline {
         gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.label),
-            layout: Some(&gpu.pipeline_layout(&groups[..count])),
-            vertex: wgpu::VertexState {
-                module: self.module,
-                entry_point: Some(self.vertex),
-                compilation_options: Default::default(),
-                buffers: &vertex_layouts(self.vertex.starts_with("masked")),
-            },
+            layout: Some(layout),
+            vertex,
             primitive: wgpu::PrimitiveState { cull_mode: self.cull_mode, ..Default::default() },
             depth_stencil: self.depth_stencil.clone(),
             multisample: Default::default(),

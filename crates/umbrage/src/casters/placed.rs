@@ -1,7 +1,9 @@
 //! A placed mesh: what the GPU and what the CPU keep of it.
 
+use super::lent::Many;
 use super::sides::Sides;
 use crate::shader::{Shared, shader_struct};
+use std::sync::Arc;
 use umbrage_core::Bounds;
 use umbrage_core::glam::{DAffine3, DVec3, DVec4};
 
@@ -35,8 +37,14 @@ const CASTS: u32 = 2;
 pub(crate) struct Placed {
     /// Index into [`super::Casters::meshes`].
     pub mesh: u32,
-    /// Its mesh is its own, and the GPU alone knows its vertices.
+    /// The GPU alone knows its vertices.
     pub posed: bool,
+    /// Its mesh is its own, which joints bend.
+    pub(super) has_own_mesh: bool,
+    /// Matrices of a host's, each of which places the mesh within this instance.
+    pub(super) many: Option<Arc<Many>>,
+    /// It casts, and nobody knows its edges.
+    pub(super) is_blind: bool,
     pub world_from_mesh: DAffine3,
     pub sides: Option<Sides>,
     pub masked: bool,
@@ -74,6 +82,9 @@ impl Placed {
         Self {
             mesh: 0,
             posed: false,
+            has_own_mesh: false,
+            many: None,
+            is_blind: false,
             world_from_mesh: DAffine3::IDENTITY,
             sides: None,
             masked: false,

@@ -131,8 +131,9 @@ impl Poses {
         Some(posed.planes.get_or_init(|| adjacency.planes_in(&part.mesh.posed(&posed.joints))))
     }
 
-    /// Bends what has changed, and remakes its planes where there are any: `group` is that of
-    /// [`planes_group`], `planes_of` tells where those of a mesh lie.
+    /// Bends what has changed, and remakes its planes where there are any, and those of meshes that
+    /// have `moved`: `group` is that of [`planes_group`], `planes_of` tells where those of a mesh
+    /// lie.
     ///
     /// # Errors
     /// [`Error::Size`] where the vertices of all meshes are more than a shader may write.
@@ -141,10 +142,10 @@ impl Poses {
         gpu: &Gpu,
         passes: &mut Passes<'_>,
         geometry: &Geometry,
-        group: Option<&wgpu::BindGroup>,
+        (group, moved): (Option<&wgpu::BindGroup>, &[u32]),
         planes_of: impl Fn(u32) -> Option<Planes>,
     ) -> Result<(), Error> {
-        if !self.have_changed() {
+        if !self.have_changed() && moved.is_empty() {
             return Ok(());
         }
         self.work.clear();
@@ -159,6 +160,17 @@ impl Poses {
             most_triangles = most_triangles.max(work.triangle_count);
             self.rows.extend(posed.joints.iter().map(rows));
             self.work.push(work);
+        }
+        for number in moved {
+            let Some(Planes { first_triangle, triangle_count, center }) = planes_of(*number) else { continue };
+            most_triangles = most_triangles.max(triangle_count);
+            let part = &geometry.meshes[*number as usize];
+            let (vertex, first_index) = (part.base_vertex, part.first_index);
+            let planes = PosedMesh { first_triangle, triangle_count, center, ..PosedMesh::default() };
+            self.work.push(PosedMesh { vertex, first_index, ..planes });
+        }
+        if self.work.is_empty() {
+            return Ok(());
         }
         let device = self.device.get_or_insert_with(|| Device::new(gpu));
         device.fit(gpu, geometry, [self.work.len(), self.rows.len()])?;

@@ -20,17 +20,22 @@ impl Casters {
         self.gpu.check_loss()?;
         if !self.journal.holds() {
             self.poses.mark_all();
+            self.following.mark_all();
             // Maps may show what was drawn without.
             self.version = next_version();
         }
         self.settle();
         self.write_instances()?;
+        self.make_edges_that_follow();
         self.bind();
-        self.journal.record(passes, self.poses.have_changed());
+        self.journal.record(passes, self.poses.have_changed() || self.following.have_changed());
+        self.following.record(&self.gpu, passes, self.geometry.positions.buffer())?;
         let edges = self.edges.get();
         let planes = edges.map(Edges::pose_group);
         let planes_of = |mesh| edges.map(|edges| edges.of_mesh(mesh).planes());
-        self.poses.record(&self.gpu, passes, &self.geometry, planes, planes_of)?;
+        let moved: Vec<u32> = self.following.changed().collect();
+        self.poses.record(&self.gpu, passes, &self.geometry, (planes, &moved), planes_of)?;
+        self.following.settle();
         if let Some(planes) = self.receiver_planes.get_mut() {
             planes.follow(&self.geometry.meshes, &self.placed, &self.solid);
         }
@@ -40,12 +45,23 @@ impl Casters {
     /// # Errors
     /// [`Error::Scene`] where something has changed since [`Casters::record`].
     pub(crate) fn check_recorded(&self) -> Result<(), Error> {
-        if self.changed.is_empty() && self.journal.is_recorded() && !self.poses.have_changed() {
+        let have_moved = self.poses.have_changed() || self.following.have_changed();
+        if self.changed.is_empty() && self.journal.is_recorded() && !have_moved {
             return Ok(());
         }
         let what = "casters have changed and the GPU does not know: call `Casters::record` once a frame, before \
                     techniques are prepared";
         Err(Error::Scene(what.into()))
+    }
+
+    /// Planes between vertices that a host moves are made in frames alone, so their edges have to be
+    /// there before a technique asks. Where they do not fit, techniques that ask say why.
+    fn make_edges_that_follow(&mut self) {
+        if self.following.is_empty() || self.edges.get().is_some() || self.edges_do_not_fit {
+            return;
+        }
+        self.edges_do_not_fit = self.make_all_edges(&self.gpu).is_err();
+        self.following.mark_all();
     }
 
     /// Where the scene has grown out of its region, or moved: trees, planes and instances are made

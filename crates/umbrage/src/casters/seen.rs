@@ -2,13 +2,14 @@
 
 use super::draw_list::{DrawList, InstanceNumbers, Surface};
 use super::material::texture_layout;
+use super::placed::Placed;
 use super::vertices::vertex_layouts;
 use super::world::Casters;
 use crate::{gpu::Gpu, passes::Passes};
 use umbrage_core::{CameraView, Frustum};
 
 /// Draws the instances that a camera sees: into a G-buffer, say. Keeps its memory from frame to
-/// frame.
+/// frame. What a host lends is left to its own draws.
 ///
 /// A host's pipelines have its own group 0, then [`SeenCasters::layouts`], and
 /// [`SeenCasters::vertex_layouts`]. Their shaders read positions as location 0, instance numbers as
@@ -29,13 +30,15 @@ impl SeenCasters {
 
     /// Vertex buffers of the pipelines.
     pub fn vertex_layouts() -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
-        vertex_layouts(true)
+        vertex_layouts()
     }
 
     /// Finds what `camera` sees, before the pass that draws it begins.
     pub fn find(&mut self, gpu: &Gpu, passes: &mut Passes<'_>, casters: &Casters, camera: &CameraView) {
         let frustum = Frustum::of(&camera.clip_from_world());
-        let seen = (0..).zip(casters.placed()).filter(|(_, placed)| placed.shown && frustum.may_see(&placed.bounds));
+        let is_own = |placed: &Placed| placed.many.is_none() && casters.meshes()[placed.mesh as usize].lent.is_none();
+        let is_seen = |placed: &Placed| placed.shown && frustum.may_see(&placed.bounds) && is_own(placed);
+        let seen = (0..).zip(casters.placed()).filter(|(_, placed)| is_seen(placed));
         self.places.clear();
         self.places.extend(seen.map(|(place, _)| place));
         casters.sort(&mut self.places);
@@ -52,7 +55,7 @@ impl SeenCasters {
         opaque: &wgpu::RenderPipeline,
         masked: &wgpu::RenderPipeline,
     ) {
-        let pipeline = |surface| if surface == Surface::Masked { masked } else { opaque };
+        let pipeline = |surface, _: &_| Some(if surface == Surface::Masked { masked } else { opaque });
         self.numbers.draw(pass, casters, &self.list, true, pipeline);
     }
 }

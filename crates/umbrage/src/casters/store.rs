@@ -51,6 +51,12 @@ impl Store {
         &self.buffer
     }
 
+    /// `count` elements from `first` on.
+    pub fn slice(&self, first: u32, count: u32) -> wgpu::BufferSlice<'_> {
+        let start = u64::from(first) * self.stride;
+        self.buffer.slice(start..start + u64::from(count) * self.stride)
+    }
+
     pub fn bytes(&self) -> u64 {
         self.buffer.size()
     }

@@ -51,6 +51,7 @@ impl Casters {
                 world_from_mesh: instance.world_from_mesh,
                 wanted: Wanted { casts: instance.casts, receives: instance.receives },
                 joints: scene.joints(instance),
+                many: None,
                 model: instance.model as u32,
             })?;
         }
@@ -102,14 +103,22 @@ impl Casters {
     /// while joints bend one of its instances. The mesh stays as it is then.
     pub fn replace_mesh(&mut self, mesh: MeshId, by: &Mesh) -> Result<(), Error> {
         let number = self.geometry.slots.find(mesh.0)?;
-        let is_posed = |place: &u32| self.placed[*place as usize].posed;
+        self.check_unbent(number)?;
+        self.geometry.replace(&self.gpu, &mut self.journal, number, by)?;
+        self.following.remove(number);
+        self.follow_mesh(number);
+        Ok(())
+    }
+
+    /// # Errors
+    /// [`Error::Scene`] while joints bend an instance of a mesh.
+    pub(super) fn check_unbent(&self, number: u32) -> Result<(), Error> {
+        let is_posed = |place: &u32| self.placed[*place as usize].has_own_mesh;
         if self.geometry.meshes[number as usize].members.iter().any(is_posed) {
             let what = "a mesh that joints bend is replaced as a new one: remove its instances, add the mesh, insert \
                         them again";
             return Err(Error::Scene(what.into()));
         }
-        self.geometry.replace(&self.gpu, &mut self.journal, number, by)?;
-        self.follow_mesh(number);
         Ok(())
     }
 
@@ -121,7 +130,11 @@ impl Casters {
     /// number of vertices, and for a mesh that joints bend. The mesh stays as it is then.
     pub fn deform_mesh(&mut self, mesh: MeshId, to: &Mesh) -> Result<(), Error> {
         let number = self.geometry.slots.find(mesh.0)?;
-        let known = &self.geometry.meshes[number as usize].mesh;
+        let part = &self.geometry.meshes[number as usize];
+        if part.lent.is_some() {
+            return Err(Error::Lent("a mesh that is lent is written to by the host; then call `touch_mesh`".into()));
+        }
+        let known = &part.mesh;
         if known.positions.len() != to.positions.len() || known.indices != to.indices {
             let what = "a mesh is deformed with the same triangles and number of vertices; use `replace_mesh`";
             return Err(Error::Scene(what.into()));
@@ -145,6 +158,8 @@ impl Casters {
             return Err(Error::Scene(format!("{users} instances have this mesh; remove them first")));
         }
         self.geometry.remove(number);
+        self.following.remove(number);
+        self.edges_do_not_fit = false;
         if let Some(edges) = self.edges.get_mut() {
             edges.remove(number);
         }
@@ -236,7 +251,7 @@ impl Casters {
     }
 
     /// After a mesh has changed.
-    fn follow_mesh(&mut self, number: u32) {
+    pub(super) fn follow_mesh(&mut self, number: u32) {
         self.make_edges(number);
         if let Some(planes) = self.receiver_planes.get_mut() {
             planes.forget_mesh(number);

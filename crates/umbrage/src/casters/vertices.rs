@@ -28,18 +28,17 @@ pub(super) fn weights(mesh: &Mesh, first: u32) -> Vec<u32> {
     starts.chain(influences).collect()
 }
 
-/// The vertex buffers of a pass that draws casters: positions and instance numbers, and attributes
-/// where `textured`.
-pub(crate) fn vertex_layouts(textured: bool) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
+/// The vertex buffers of a pass that draws the library's own casters: positions, instance numbers
+/// and attributes.
+pub(crate) fn vertex_layouts() -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
     const POSITION: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![0 => Float32x3];
     const NUMBER: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![1 => Uint32];
     const ATTRIBUTES: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![2 => Float32x3, 3 => Float32x3];
     let layout =
         |array_stride, step_mode, attributes| Some(wgpu::VertexBufferLayout { array_stride, step_mode, attributes });
-    let mut layouts =
-        vec![layout(12, wgpu::VertexStepMode::Vertex, POSITION), layout(4, wgpu::VertexStepMode::Instance, NUMBER)];
-    if textured {
-        layouts.push(layout(24, wgpu::VertexStepMode::Vertex, ATTRIBUTES));
-    }
-    layouts
+    vec![
+        layout(12, wgpu::VertexStepMode::Vertex, POSITION),
+        layout(4, wgpu::VertexStepMode::Instance, NUMBER),
+        layout(24, wgpu::VertexStepMode::Vertex, ATTRIBUTES),
+    ]
 }

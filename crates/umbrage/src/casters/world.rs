@@ -4,10 +4,12 @@
 use super::batches::Batches;
 use super::changed::Changed;
 use super::edges::{Edges, MeshEdges};
+use super::form::Form;
 use super::geometry::{Geometry, MeshPart, Sizes};
 use super::host::{CasterView, Host, HostCasters, refuse};
 use super::ids::{Id, Slots};
 use super::journal::Journal;
+use super::lent::Following;
 use super::material::Appearance;
 use super::moves::Moves;
 use super::placed::{Instance, Placed};
@@ -48,6 +50,8 @@ pub struct Casters {
     pub(super) instances: Store,
     pub(super) slots: Slots,
     pub(super) batches: Batches,
+    /// How buffers lie that have been drawn from; the library's own way apart.
+    pub(super) forms: Vec<Form>,
     pub(super) placed: Vec<Placed>,
     /// Instances that came so far.
     pub(super) came: u64,
@@ -70,6 +74,12 @@ pub struct Casters {
     /// Places of those that are convex bodies wound outwards.
     pub(super) solid: Places,
     pub(super) poses: Poses,
+    /// Lent meshes whose vertices the host moves.
+    pub(super) following: Following,
+    /// How many cast shadows whose edges nobody knows.
+    pub(super) blind: u32,
+    /// Edges of meshes whose vertices the host moves were too many for the device.
+    pub(super) edges_do_not_fit: bool,
     pub(super) edges: OnceLock<Edges>,
     pub(super) receiver_planes: OnceLock<ScenePlanes>,
 }
@@ -110,6 +120,7 @@ impl Casters {
             instances,
             slots: Slots::new("instance", of),
             batches: Batches::default(),
+            forms: vec![Form::OWN],
             placed: Vec::new(),
             came: 0,
             in_order: true,
@@ -123,6 +134,9 @@ impl Casters {
             moves: Moves::default(),
             solid: Places::default(),
             poses: Poses::default(),
+            following: Following::default(),
+            blind: 0,
+            edges_do_not_fit: false,
             edges: OnceLock::new(),
             receiver_planes: OnceLock::new(),
         })
@@ -152,7 +166,7 @@ impl Casters {
     /// GPU memory held, textures apart. Edges count from when a technique first asks for them.
     pub fn bytes(&self) -> u64 {
         let own = self.geometry.bytes() + self.appearance.store.bytes() + self.instances.bytes();
-        own + self.poses.bytes() + self.edges.get().map_or(0, Edges::bytes)
+        own + self.poses.bytes() + self.following.bytes() + self.edges.get().map_or(0, Edges::bytes)
     }
 
     /// Boxes around the instances that cast shadows.
@@ -298,11 +312,22 @@ impl Casters {
         if self.host.is_some() {
             refuse("their edges are not known")?;
         }
+        self.check_known()?;
+        self.make_all_edges(gpu)
+    }
+
+    /// The edges of what is known.
+    pub(super) fn make_all_edges(&self, gpu: &Gpu) -> Result<&Edges, Error> {
         if let Some(edges) = self.edges.get() {
             return Ok(edges);
         }
         let made = Edges::new(gpu, (&self.geometry.meshes, &self.poses), self.bound_by_edges())?;
         Ok(self.edges.get_or_init(|| made))
+    }
+
+    /// How the buffers lie that casters are drawn from.
+    pub(crate) fn forms(&self) -> &[Form] {
+        &self.forms
     }
 
     /// What edges are bound with.

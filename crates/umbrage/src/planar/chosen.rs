@@ -4,7 +4,7 @@ use super::MOST;
 use super::lit::{Between, LitPlane};
 use super::screen::{Clipper, Screen};
 use super::seen::SeenPlanes;
-use crate::casters::{Casters, DrawList, InstanceNumbers, Surface};
+use crate::casters::{Casters, DrawList, Form, InstanceNumbers, Surface};
 use crate::{gpu::Gpu, passes::Passes, view::View};
 
 /// What of a scene a technique wants.
@@ -144,7 +144,7 @@ impl Chosen {
         pass: &mut wgpu::RenderPass<'_>,
         casters: &Casters,
         plane: usize,
-        pipeline: impl Fn(Surface) -> &'p wgpu::RenderPipeline,
+        pipeline: impl Fn(Surface, &Form) -> Option<&'p wgpu::RenderPipeline>,
     ) {
         if let Some(list) = self.lists().get(plane) {
             self.numbers.draw(pass, casters, list, false, pipeline);

@@ -1,4 +1,4 @@
-// needs: casters, materials
+// needs: casters, materials, many
 // Casters projected through the light on a plane.
 
 struct PlaneShadow {
@@ -56,13 +56,23 @@ fn opaque(@location(0) position: vec3f, @location(1) instance: u32) -> Projected
 }
 
 @vertex
-fn masked(
+fn masked(@location(0) position: vec3f, @location(1) instance: u32, @location(3) uv: vec3f) -> Projected {
+    return project(instance, position, with_opacity(uv));
+}
+
+@vertex
+fn opaque_many(@location(0) position: vec3f, @location(1) instance: u32, many: Many) -> Projected {
+    return project(instance, placed_by(many, position), vec3f(0.0));
+}
+
+@vertex
+fn masked_many(
     @location(0) position: vec3f,
     @location(1) instance: u32,
-    @location(2) normal: vec3f,
     @location(3) uv: vec3f,
+    many: Many,
 ) -> Projected {
-    return project(instance, position, uv);
+    return project(instance, placed_by(many, position), with_opacity(uv));
 }
 
 // It lies in the plane or behind it.

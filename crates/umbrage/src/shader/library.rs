@@ -14,7 +14,7 @@ macro_rules! modules {
 pub(super) const LIBRARY: &[Module] = modules! {
     "wgsl": fullscreen inspect;
     "receivers": pack_normal eye receivers;
-    "casters": instances casters materials edges poses;
+    "casters": instances casters materials many edges poses;
     "planar": plane_finder plane_shadow;
     "silhouettes": extrude;
     "area_light": area_light;

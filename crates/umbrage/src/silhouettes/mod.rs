@@ -115,6 +115,9 @@ impl Silhouettes {
         style: Style,
     ) -> Result<(), Error> {
         let edges = casters.edges(gpu)?;
+        if self.extrude == Extrude::Cpu {
+            casters.check_told(throws.iter().map(|throw| throw.place))?;
+        }
         let origin = casters.origin();
         self.shape = Shape::of(light, throws, style);
         let clip_from_origin = *clip_from_world * DMat4::from_translation(origin);

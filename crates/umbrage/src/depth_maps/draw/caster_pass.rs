@@ -2,7 +2,7 @@
 
 use super::layouts::{view_layout, view_uniform};
 use super::view::MapView;
-use crate::casters::{CasterDraw, Casters, DrawList, InstanceNumbers, Surface};
+use crate::casters::{ByForm, CasterDraw, Casters, DrawList, Form, InstanceNumbers, Surface};
 use crate::depth_maps::frame::MapFrame;
 use crate::{gpu::Gpu, passes::Passes, shader::Shader, view::View};
 
@@ -13,7 +13,8 @@ use crate::{gpu::Gpu, passes::Passes, shader::Shader, view::View};
 /// may read the view as `map_view`. Views that are no matrices
 /// ([`umbrage_core::light_view::LightView::paraboloid`]) are not for it.
 pub struct CasterPass {
-    pipelines: [wgpu::RenderPipeline; 2],
+    pipelines: ByForm<[wgpu::RenderPipeline; 2]>,
+    made_by: Maker,
     layout: wgpu::BindGroupLayout,
     /// By layer.
     uniforms: Vec<(wgpu::Buffer, wgpu::BindGroup)>,
@@ -21,6 +22,39 @@ pub struct CasterPass {
     views: Vec<MapView>,
     numbers: InstanceNumbers,
     found: Vec<u32>,
+}
+
+/// What pipelines are made by.
+struct Maker {
+    label: &'static str,
+    module: wgpu::ShaderModule,
+    fragments: [String; 2],
+    targets: Vec<Option<wgpu::ColorTargetState>>,
+    depth_stencil: Option<wgpu::DepthStencilState>,
+}
+
+impl Maker {
+    /// For opaque casters and for those with an alpha mask.
+    fn pipelines(&self, gpu: &Gpu, layout: &wgpu::BindGroupLayout, form: Form) -> [wgpu::RenderPipeline; 2] {
+        let [opaque, masked] = &self.fragments;
+        [("opaque", opaque), ("masked", masked)].map(|(vertex, fragment)| {
+            CasterDraw {
+                label: self.label,
+                form,
+                view: layout,
+                textured: true,
+                more: None,
+                module: &self.module,
+                vertex,
+                fragment: Some(fragment),
+                constants: &[],
+                targets: &self.targets,
+                depth_stencil: self.depth_stencil.clone(),
+                cull_mode: None,
+            }
+            .pipeline(gpu)
+        })
+    }
 }
 
 impl CasterPass {
@@ -33,25 +67,17 @@ impl CasterPass {
         targets: &[Option<wgpu::ColorTargetState>],
         depth_stencil: Option<wgpu::DepthStencilState>,
     ) -> Self {
-        let (layout, module) = (view_layout(gpu), shader.module(gpu));
-        let pipeline = |vertex, fragment| {
-            CasterDraw {
-                label: shader.name,
-                view: &layout,
-                textured: true,
-                more: None,
-                module: &module,
-                vertex,
-                fragment: Some(fragment),
-                constants: &[],
-                targets,
-                depth_stencil: depth_stencil.clone(),
-                cull_mode: None,
-            }
-            .pipeline(gpu)
+        let layout = view_layout(gpu);
+        let made_by = Maker {
+            label: shader.name,
+            module: shader.module(gpu),
+            fragments: fragments.map(String::from),
+            targets: targets.to_vec(),
+            depth_stencil,
         };
         Self {
-            pipelines: [pipeline("opaque", fragments[0]), pipeline("masked", fragments[1])],
+            pipelines: ByForm::new(made_by.pipelines(gpu, &layout, Form::OWN)),
+            made_by,
             layout,
             uniforms: Vec::new(),
             lists: Vec::new(),
@@ -63,6 +89,7 @@ impl CasterPass {
 
     /// Finds what the views of this frame see; in [`super::super::Stage::prepare`].
     pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, frame: &MapFrame) {
+        self.pipelines.follow(view.casters.forms(), |form| self.made_by.pipelines(gpu, &self.layout, form));
         let count = frame.views.len();
         self.uniforms.resize_with(self.uniforms.len().max(count), || view_uniform(gpu, &self.layout));
         self.lists.resize_with(self.lists.len().max(count), DrawList::default);
@@ -99,7 +126,7 @@ impl CasterPass {
         let (Some((_, uniform)), Some(list)) = (self.uniforms.get(i), self.lists.get(i)) else { return 0 };
         let mut pass = passes.render(label, colors, depth);
         pass.set_bind_group(0, uniform, &[]);
-        let pipeline = |surface| &self.pipelines[usize::from(surface == Surface::Masked)];
+        let pipeline = |surface, form: &Form| Some(&self.pipelines.get(form)?[usize::from(surface == Surface::Masked)]);
         self.numbers.draw(&mut pass, casters, list, true, pipeline);
         list.draws()
     }

@@ -78,6 +78,7 @@ impl Drawer {
         let unseen = (0..).zip(&mut self.layers).filter(|(i, _)| !frame.views.iter().any(|view| view.layer == *i));
         unseen.for_each(|(_, layer)| layer.forget());
         if !frame.views.is_empty() {
+            self.pipelines.prepare(gpu, kind(frame), view.casters.forms());
             self.make_room(gpu, frame);
             self.choose(gpu, view, frame);
         }
@@ -86,9 +87,8 @@ impl Drawer {
         frame.versions.extend(self.layers.iter().map(|layer| layer.version));
     }
 
-    /// Pipelines, layers and textures for the views.
+    /// Layers and textures for the views.
     fn make_room(&mut self, gpu: &Gpu, frame: &MapFrame) {
-        self.pipelines.prepare(gpu, kind(frame));
         let count = frame.layers.count();
         self.layers.resize_with(self.layers.len().max(count as usize), Layer::default);
         if self.textures.as_ref().is_none_or(|t| t.layers() < count || t.size() != frame.size) {

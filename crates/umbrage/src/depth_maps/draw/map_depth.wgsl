@@ -1,4 +1,4 @@
-// needs: casters, materials, map_view
+// needs: casters, materials, many, map_view
 // Renders casters into a depth map seen from the light.
 
 @group(0) @binding(0) var<uniform> map_view: MapView;
@@ -27,13 +27,28 @@ fn opaque(@location(0) position: vec3f, @location(1) instance: u32) -> @invarian
 }
 
 @vertex
-fn masked(
+fn masked(@location(0) position: vec3f, @location(1) instance: u32, @location(3) uv: vec3f) -> Masked {
+    return Masked(map_position(instance, position), with_opacity(uv), instances[instance].material);
+}
+
+@vertex
+fn opaque_many(
     @location(0) position: vec3f,
     @location(1) instance: u32,
-    @location(2) normal: vec3f,
+    many: Many,
+) -> @invariant @builtin(position) vec4f {
+    return map_position(instance, placed_by(many, position));
+}
+
+@vertex
+fn masked_many(
+    @location(0) position: vec3f,
+    @location(1) instance: u32,
     @location(3) uv: vec3f,
+    many: Many,
 ) -> Masked {
-    return Masked(map_position(instance, position), uv, instances[instance].material);
+    let at = map_position(instance, placed_by(many, position));
+    return Masked(at, with_opacity(uv), instances[instance].material);
 }
 
 @fragment

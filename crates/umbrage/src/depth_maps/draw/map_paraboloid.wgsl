@@ -33,13 +33,24 @@ fn opaque_bent(@location(0) position: vec3f, @location(1) instance: u32) -> Bent
 }
 
 @vertex
-fn masked_bent(
+fn masked_bent(@location(0) position: vec3f, @location(1) instance: u32, @location(3) uv: vec3f) -> Bent {
+    return bent(map_position(instance, position).xyw, with_opacity(uv), instances[instance].material);
+}
+
+@vertex
+fn opaque_bent_many(@location(0) position: vec3f, @location(1) instance: u32, many: Many) -> Bent {
+    return bent(map_position(instance, placed_by(many, position)).xyw, vec3f(0.0), 0u);
+}
+
+@vertex
+fn masked_bent_many(
     @location(0) position: vec3f,
     @location(1) instance: u32,
-    @location(2) normal: vec3f,
     @location(3) uv: vec3f,
+    many: Many,
 ) -> Bent {
-    return bent(map_position(instance, position).xyw, uv, instances[instance].material);
+    let at = map_position(instance, placed_by(many, position));
+    return bent(at.xyw, with_opacity(uv), instances[instance].material);
 }
 
 // near / distance; 0 where there is nothing to be drawn.

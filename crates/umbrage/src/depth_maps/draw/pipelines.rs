@@ -4,7 +4,7 @@ use super::cache::Work;
 use super::layer::Layer;
 use super::layouts::Layouts;
 use super::textures::{FORMAT, Textures};
-use crate::casters::{CasterDraw, CasterView, Casters, InstanceNumbers, Surface};
+use crate::casters::{ByForm, CasterDraw, CasterView, Casters, Form, InstanceNumbers, Surface};
 use crate::shader::Shader;
 use crate::{gpu::Gpu, passes::Passes};
 
@@ -42,14 +42,14 @@ pub(super) struct Pipelines {
 /// Pipelines of one kind.
 struct Set {
     /// For solid, open and alpha-masked casters.
-    nearest: [wgpu::RenderPipeline; 3],
+    nearest: ByForm<[wgpu::RenderPipeline; 3]>,
     second: Option<SecondPipelines>,
 }
 
 /// For `faces = midpoint`.
 struct SecondPipelines {
     /// For opaque and alpha-masked casters.
-    surface: [wgpu::RenderPipeline; 2],
+    surface: ByForm<[wgpu::RenderPipeline; 2]>,
     midpoint: wgpu::RenderPipeline,
 }
 
@@ -85,11 +85,19 @@ impl Pipelines {
         }
     }
 
-    /// Makes what views of this kind need.
-    pub(super) fn prepare(&mut self, gpu: &Gpu, kind: Kind) {
-        if self.set(kind).is_none() {
-            self.made.push((kind, self.make(gpu, kind)));
+    /// Makes what views of this kind need for such buffers.
+    pub(super) fn prepare(&mut self, gpu: &Gpu, kind: Kind, forms: &[Form]) {
+        let mut made = std::mem::take(&mut self.made);
+        let at = made.iter().position(|(k, _)| *k == kind).unwrap_or_else(|| {
+            made.push((kind, self.make(gpu, kind)));
+            made.len() - 1
+        });
+        let set = &mut made[at].1;
+        set.nearest.follow(forms, |form| self.nearest(gpu, kind, form));
+        if let Some(second) = &mut set.second {
+            second.surface.follow(forms, |form| self.second(gpu, kind, form));
         }
+        self.made = made;
     }
 
     fn set(&self, kind: Kind) -> Option<&Set> {
@@ -97,39 +105,53 @@ impl Pipelines {
     }
 
     fn make(&self, gpu: &Gpu, kind: Kind) -> Set {
-        let cull_mode = self.cull_mode;
-        let constants = [("LINEAR", if kind.linear { 1.0 } else { 0.0 })];
-        let draw = |module: &wgpu::ShaderModule, vertex: &str, fragment: Option<&str>, more, cull_mode| {
-            CasterDraw {
-                label: fragment.unwrap_or(vertex),
-                view: &self.layouts.view,
-                textured: vertex.starts_with("masked"),
-                more,
-                module,
-                vertex,
-                fragment,
-                // A constant that no entry point uses is none of the module's.
-                constants: if fragment == Some("cut_out") { &[] } else { &constants },
-                targets: &[],
-                depth_stencil: depth_state(wgpu::CompareFunction::Greater),
-                cull_mode,
-            }
-            .pipeline(gpu)
-        };
-        let [opaque, masked] = kind.entries();
-        let front = cull_mode.or(Some(wgpu::Face::Back));
-        let nearest = [
-            draw(&self.nearest, opaque.0, opaque.1, None, front),
-            draw(&self.nearest, opaque.0, opaque.1, None, cull_mode),
-            draw(&self.nearest, masked.0, masked.1, None, cull_mode),
-        ];
-        let second = self.second.as_ref().map(|[second, mean]| SecondPipelines {
-            surface: [opaque, masked].map(|(vertex, _, fragment)| {
-                draw(second, vertex, Some(fragment), Some(&self.layouts.one_map), cull_mode)
-            }),
+        let second = self.second.as_ref().map(|[_, mean]| SecondPipelines {
+            surface: ByForm::new(self.second(gpu, kind, Form::OWN)),
             midpoint: midpoint_pipeline(gpu, mean, &self.layouts.two_maps, kind),
         });
-        Set { nearest, second }
+        Set { nearest: ByForm::new(self.nearest(gpu, kind, Form::OWN)), second }
+    }
+
+    /// What draws the nearest surface.
+    fn nearest(&self, gpu: &Gpu, kind: Kind, form: Form) -> [wgpu::RenderPipeline; 3] {
+        let [opaque, masked] = kind.entries().map(|(vertex, nearest, _)| (vertex, nearest));
+        let (both, front) = (self.cull_mode, self.cull_mode.or(Some(wgpu::Face::Back)));
+        [(opaque, front), (opaque, both), (masked, both)].map(|((vertex, fragment), cull_mode)| {
+            self.draw(kind, form, (&self.nearest, vertex, fragment), (None, cull_mode)).pipeline(gpu)
+        })
+    }
+
+    /// What draws the second one, for opaque and alpha-masked casters.
+    fn second(&self, gpu: &Gpu, kind: Kind, form: Form) -> [wgpu::RenderPipeline; 2] {
+        let module = self.second.as_ref().map_or(&self.nearest, |[second, _]| second);
+        let more = (Some(&self.layouts.one_map), self.cull_mode);
+        let of = |(vertex, _, fragment)| self.draw(kind, form, (module, vertex, Some(fragment)), more).pipeline(gpu);
+        kind.entries().map(of)
+    }
+
+    fn draw<'a>(
+        &'a self,
+        kind: Kind,
+        form: Form,
+        (module, vertex, fragment): (&'a wgpu::ShaderModule, &'a str, Option<&'a str>),
+        (more, cull_mode): (Option<&'a wgpu::BindGroupLayout>, Option<wgpu::Face>),
+    ) -> CasterDraw<'a> {
+        let linear: &[_] = if kind.linear { &[("LINEAR", 1.0)] } else { &[("LINEAR", 0.0)] };
+        CasterDraw {
+            label: fragment.unwrap_or(vertex),
+            form,
+            view: &self.layouts.view,
+            textured: vertex.starts_with("masked"),
+            more,
+            module,
+            vertex,
+            fragment,
+            // A constant that no entry point uses is none of the module's.
+            constants: if fragment == Some("cut_out") { &[] } else { linear },
+            targets: &[],
+            depth_stencil: depth_state(wgpu::CompareFunction::Greater),
+            cull_mode,
+        }
     }
 
     /// Renders one layer; returns how often the casters of its list were drawn.
@@ -149,7 +171,8 @@ impl Pipelines {
         let draw = |passes: &mut Passes<'_>, label, list, attachment, is_all: bool| {
             let mut pass = passes.render(label, &[], attachment);
             pass.set_bind_group(0, view_uniform, &[]);
-            numbers.draw(&mut pass, casters, list, false, |surface| &set.nearest[surface as usize]);
+            numbers
+                .draw(&mut pass, casters, list, false, |surface, form| Some(&set.nearest.get(form)?[surface as usize]));
             if is_all && casters.has_host_casters() {
                 pass.set_bind_group(0, view_uniform, &[]);
                 casters.draw_host_casters(&mut pass, view);
@@ -171,8 +194,8 @@ impl Pipelines {
             let mut pass = passes.render("second surface", &[], clear(&second.second));
             pass.set_bind_group(0, view_uniform, &[]);
             pass.set_bind_group(3, &second.read_first, &[]);
-            numbers.draw(&mut pass, casters, &layer.list, true, |surface| {
-                &pipelines.surface[usize::from(surface == Surface::Masked)]
+            numbers.draw(&mut pass, casters, &layer.list, true, |surface, form| {
+                Some(&pipelines.surface.get(form)?[usize::from(surface == Surface::Masked)])
             });
         }
         let mut pass = passes.render("midpoint", &[], clear(&second.midpoint));

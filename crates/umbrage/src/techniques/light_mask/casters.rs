@@ -69,6 +69,7 @@ impl Trees {
 
     /// Trees of the chosen casters; true where buffers were made anew.
     pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, chosen: &[u32]) -> Result<bool, Error> {
+        view.casters.check_told(chosen.iter().copied())?;
         self.meshes.follow(view.casters);
         let eye = view.camera.eye;
         let (mut boxes, mut records) = (Vec::with_capacity(chosen.len()), Vec::with_capacity(chosen.len()));

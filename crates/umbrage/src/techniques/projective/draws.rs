@@ -1,7 +1,7 @@
 //! Pipelines and the stencil. The shadows of one plane are marked there with its number, and then
 //! the plane's pixels among them lose their light.
 
-use crate::casters::{CasterDraw, Surface};
+use crate::casters::{ByForm, CasterDraw, Form, Surface};
 use crate::fullscreen::target_texture;
 use crate::planar::{Finder, Shadows};
 use crate::receivers::Receivers;
@@ -20,7 +20,7 @@ pub(super) struct Draws {
     resolve_module: wgpu::ShaderModule,
     resolve_layout: wgpu::PipelineLayout,
     resolve: Option<(Normals, Resolve)>,
-    cast: [wgpu::RenderPipeline; 3],
+    cast: ByForm<[wgpu::RenderPipeline; 3]>,
     stencil: Option<(wgpu::TextureView, (u32, u32))>,
 }
 
@@ -47,7 +47,7 @@ impl Draws {
             resolve_module: RESOLVE_SHADER.module(gpu),
             resolve_layout: gpu.pipeline_layout(&[Some(&Receivers::layout(gpu)), Some(&finder.layout)]),
             resolve: None,
-            cast: cast(gpu, shadows),
+            cast: ByForm::new(cast(gpu, shadows, Form::OWN)),
             stencil: None,
         }
     }
@@ -78,8 +78,13 @@ impl Draws {
     }
 
     /// What marks shadows.
-    pub fn cast(&self, surface: Surface) -> &wgpu::RenderPipeline {
-        &self.cast[surface as usize]
+    pub fn cast(&self, surface: Surface, form: &Form) -> Option<&wgpu::RenderPipeline> {
+        Some(&self.cast.get(form)?[surface as usize])
+    }
+
+    /// Makes what draws casters in such buffers.
+    pub fn follow(&mut self, gpu: &Gpu, shadows: &Shadows, forms: &[Form]) {
+        self.cast.follow(forms, |form| cast(gpu, shadows, form));
     }
 
     /// The stencil, nothing of which is needed after the pass.
@@ -143,12 +148,13 @@ fn stencil_state((compare, pass_op): (CompareFunction, StencilOperation)) -> Opt
 /// In the order of [`Surface`]. Of solid casters that are wholly between plane and light the faces
 /// towards the light have the whole shadow; seen from the light's side of the plane, they are wound
 /// as they are seen from the light.
-fn cast(gpu: &Gpu, shadows: &Shadows) -> [wgpu::RenderPipeline; 3] {
+fn cast(gpu: &Gpu, shadows: &Shadows, form: Form) -> [wgpu::RenderPipeline; 3] {
     let module = CAST_SHADER.module(gpu);
     let target = wgpu::ColorTargetState { write_mask: wgpu::ColorWrites::empty(), ..VisibilityTarget::FORMAT.into() };
     let pipeline = |vertex: &str, fragment, cull_mode| {
         CasterDraw {
             label: "projected casters",
+            form,
             view: &shadows.layout,
             textured: vertex == "masked",
             more: None,

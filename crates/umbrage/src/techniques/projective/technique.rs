@@ -70,7 +70,7 @@ impl Projected {
                 let [x, y, width, height] = self.chosen.rects()[plane];
                 pass.set_scissor_rect(x, y, width, height);
                 self.shadows.bind(&mut pass, plane);
-                self.chosen.draw(&mut pass, view.casters, plane, |surface| self.draws.cast(surface));
+                self.chosen.draw(&mut pass, view.casters, plane, |surface, form| self.draws.cast(surface, form));
             }
             pass.set_scissor_rect(0, 0, width, height);
             pass.set_pipeline(&resolve.marked);
@@ -101,6 +101,7 @@ impl Technique for Projected {
         let is_shifted = view.receivers.snapping > LEAST_SHIFT;
         let is_coarse = is_shifted || self.wanted.tolerance > 0.0 || view.camera.background_depth() != 0.0;
         let normals = Normals { are_there: view.receivers.has_normals, are_needed: is_coarse };
+        self.draws.follow(gpu, &self.shadows, view.casters.forms());
         self.draws.prepare(gpu, view.receivers, normals);
         if let Some(views) = &mut self.views {
             views.prepare(gpu, view.receivers, &self.finder);

@@ -1,7 +1,7 @@
 //! Pipelines, and the textures of planes.
 
 use super::planes::Textures;
-use crate::casters::{CasterDraw, Surface};
+use crate::casters::{ByForm, CasterDraw, Form, Surface};
 use crate::fullscreen::{Fullscreen, UNIFORM, bind, layer_view, layout, target_texture};
 use crate::planar::{Finder, Shadows};
 use crate::receivers::Receivers;
@@ -21,7 +21,7 @@ pub(super) const LIT: f64 = 2.0;
 pub(super) struct Draws {
     lookup_module: wgpu::ShaderModule,
     lookup: Option<(bool, wgpu::RenderPipeline)>,
-    cast: [wgpu::RenderPipeline; 3],
+    cast: ByForm<[wgpu::RenderPipeline; 3]>,
     layout: wgpu::BindGroupLayout,
     pub uniform: wgpu::Buffer,
     sampler: wgpu::Sampler,
@@ -47,7 +47,7 @@ impl Draws {
         Self {
             lookup_module: LOOKUP_SHADER.module(gpu),
             lookup: None,
-            cast: cast(gpu, shadows),
+            cast: ByForm::new(cast(gpu, shadows, Form::OWN)),
             layout: layout(gpu, "textures of planes", wgpu::ShaderStages::FRAGMENT, &[UNIFORM, array, sampler]),
             uniform: gpu.buffer("textures of planes", &[Textures::default()], usage),
             sampler: gpu.sampler(&Default::default()),
@@ -102,8 +102,13 @@ impl Draws {
     }
 
     /// What draws casters.
-    pub fn cast(&self, surface: Surface) -> &wgpu::RenderPipeline {
-        &self.cast[surface as usize]
+    pub fn cast(&self, surface: Surface, form: &Form) -> Option<&wgpu::RenderPipeline> {
+        Some(&self.cast.get(form)?[surface as usize])
+    }
+
+    /// Makes what draws casters in such buffers.
+    pub fn follow(&mut self, gpu: &Gpu, shadows: &Shadows, forms: &[Form]) {
+        self.cast.follow(forms, |form| cast(gpu, shadows, form));
     }
 
     /// The layer of a plane.
@@ -123,7 +128,7 @@ impl Draws {
 }
 
 /// In the order of [`Surface`]; both faces, since the lowest counts.
-fn cast(gpu: &Gpu, shadows: &Shadows) -> [wgpu::RenderPipeline; 3] {
+fn cast(gpu: &Gpu, shadows: &Shadows, form: Form) -> [wgpu::RenderPipeline; 3] {
     let module = CAST_SHADER.module(gpu);
     let least = wgpu::BlendComponent {
         src_factor: wgpu::BlendFactor::One,
@@ -134,6 +139,7 @@ fn cast(gpu: &Gpu, shadows: &Shadows) -> [wgpu::RenderPipeline; 3] {
     let pipeline = |vertex: &str, fragment| {
         CasterDraw {
             label: "heights of casters",
+            form,
             view: &shadows.layout,
             textured: vertex == "masked",
             more: None,

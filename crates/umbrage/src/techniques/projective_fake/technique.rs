@@ -66,7 +66,7 @@ impl Filtered {
             let clear = wgpu::LoadOp::Clear(wgpu::Color { r: LIT, ..wgpu::Color::TRANSPARENT });
             let mut pass = passes.render("heights of casters", &[attachment(layer, clear)], None);
             self.shadows.bind(&mut pass, plane);
-            self.chosen.draw(&mut pass, view.casters, plane, |surface| self.draws.cast(surface));
+            self.chosen.draw(&mut pass, view.casters, plane, |surface, form| self.draws.cast(surface, form));
         }
         let Some((pipeline, textures)) = self.draws.lookup() else { return };
         let mut pass = passes.render("visibility", &[visibility.overwrite()], None);
@@ -86,6 +86,7 @@ impl Technique for Filtered {
         let blur = self.blur;
         self.chosen.update(gpu, view, &self.wanted, |plane| blur.margin(view, plane));
         let planes = self.chosen.planes().len() as u32;
+        self.draws.follow(gpu, &self.shadows, view.casters.forms());
         self.draws.prepare(gpu, view.receivers, &self.finder, planes, &self.blur);
         let lists = self.chosen.lists();
         let drawn = lists.iter().map(|list| list.drawn()).sum();

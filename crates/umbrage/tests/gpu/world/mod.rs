@@ -1,6 +1,8 @@
 //! Casters that change: pictures are those of a scene made anew, and misuse is an error.
 
 mod host_drawn;
+mod lending;
+mod lending_errors;
 mod misuse;
 mod random;
 
