@@ -22,6 +22,12 @@ const FLOAT_16: u32 = 3u;
 @group(0) @binding(1) var<storage, read> lent: array<u32>;
 @group(0) @binding(2) var<storage, read_write> positions: array<f32>;
 
+// The lower half of a word, by its exponent of five bits; what has none is next to 0.
+fn half(word: u32) -> f32 {
+    let size = bitcast<f32>((word & 0x7fffu) << 13u) * 0x1p112;
+    return select(size, -size, (word & 0x8000u) != 0u);
+}
+
 fn pair(word: u32) -> vec2f {
     if copied.format == UNORM_16 {
         return unpack2x16unorm(word);
@@ -29,7 +35,7 @@ fn pair(word: u32) -> vec2f {
     if copied.format == SNORM_16 {
         return unpack2x16snorm(word);
     }
-    return unpack2x16float(word);
+    return vec2f(half(word), half(word >> 16u));
 }
 
 fn lent_position(at: u32) -> vec3f {

@@ -155,17 +155,22 @@ fn lent<'a>(gpu: &Gpu, mesh: &Mesh, shape: LentShape<'a>, way: Way) -> LentMesh<
 }
 
 /// Pixels in which pictures differ by more than `least`, by name.
-fn differences(names: &[String], [a, b]: [&[Image<f32>]; 2], least: f32) -> Vec<String> {
-    let count = |a: &Image<f32>, b: &Image<f32>| {
+fn differences(names: &[String], [a, b]: [&[Image<f32>]; 2], least: impl Fn(&str) -> f32) -> Vec<String> {
+    let all = names.iter().zip(a.iter().zip(b));
+    let count = |(name, (a, b)): (&String, (&Image<f32>, &Image<f32>))| {
         // Not a number differs from everything.
-        a.data.iter().zip(&b.data).filter(|(a, b)| !((*a - *b).abs() <= least)).count()
+        let off = |(a, b): (&f32, &f32)| Some((a - b).abs()).filter(|off| !(*off <= least(name)));
+        let off: Vec<f32> = a.data.iter().zip(&b.data).filter_map(off).collect();
+        let most = off.iter().copied().fold(0.0, f32::max);
+        (!off.is_empty()).then(|| format!("{name}: {} pixels, by {most}", off.len()))
     };
-    let all = names.iter().zip(a.iter().zip(b)).map(|(name, (a, b))| (name, count(a, b)));
-    all.filter(|(_, pixels)| *pixels > 0).map(|(name, pixels)| format!("{name}: {pixels} pixels")).collect()
+    all.filter_map(count).collect()
 }
 
+/// To the bit; but `wedges` adds up in half floats, in the order in which compute lists edges, which
+/// is not always the same on drivers with several threads.
 fn assert_equal(names: &[String], pictures: [&[Image<f32>]; 2], what: &str) {
-    let off = differences(names, pictures, 0.0);
+    let off = differences(names, pictures, |name| if name.starts_with("wedges") { 0.0 } else { 0.0 });
     assert!(off.is_empty(), "{what}:\n{}", off.join("\n"));
 }
 
@@ -242,33 +247,39 @@ fn meshes_that_nobody_knows_and_that_move_are_drawn_where_they_are() {
     gpu.queue.write_buffer(&host.positions.buffer, 0, bytemuck::cast_slice(&vertices(&moved, MIXED)));
     lending.casters().touch_mesh(id, &in_bounds(&moved)).unwrap();
     let after = own.frame();
-    assert!(!differences(&own.names, [&before, &after], 0.5).is_empty(), "it has moved");
+    assert!(!differences(&own.names, [&before, &after], |_| 0.5).is_empty(), "it has moved");
     assert_equal(&own.names, [&after, &lending.frame()], "after it moved");
 }
 
 #[test]
 fn stored_numbers_of_sixteen_bits_are_drawn_as_well() {
     let gpu = gpu();
-    let wanted = |info: &TechniqueInfo| info.id == "shadow-map";
-    let (mut own, mut lending) = (Shown::new(&gpu, wanted), Shown::new(&gpu, wanted));
-    let looks = [&mut own, &mut lending].map(|shown| materials(shown.casters()));
+    let wanted = |info: &TechniqueInfo| ["shadow-map", "volume"].contains(&info.id);
+    let mut own = Shown::new(&gpu, wanted);
+    let look = materials(own.casters());
     // Corners that 16 bits hold exactly.
     let mesh = primitive::plane();
-    let unit = |p: Vec3| (p + Vec3::splat(0.5)).clamp(Vec3::ZERO, Vec3::ONE);
+    let unit = |p: Vec3| Vec3::new(p.x + 0.5, 0.0, p.z + 0.5).round();
     let mesh = Mesh { positions: mesh.positions.iter().map(|p| unit(*p)).collect(), ..mesh };
     let place = DAffine3::from_translation(DVec3::new(-0.5, 4.3, -0.5));
     let kept = own.casters().add_mesh(&mesh).unwrap();
-    cast(own.casters(), kept, looks[0][0], place);
-    let number = |v: f32| (v * 65535.0).round() as u16;
-    let words: Vec<[u16; 4]> = mesh.positions.iter().map(|p| [number(p.x), number(p.y), number(p.z), 9]).collect();
-    let buffer = gpu.buffer("vertices", &words, Usage::VERTEX);
-    let of = lent(&gpu, &mesh, LentShape::Unknown(in_bounds(&mesh)), PLAIN);
-    let positions = LentVertices { buffer, offset: 0, stride: 8, format: VertexFormat::Unorm16x4 };
-    let id = lending.casters().lend_mesh(&LentMesh { positions, ..of }).unwrap();
-    cast(lending.casters(), id, looks[1][0], place);
+    cast(own.casters(), kept, look[0], place);
     let kept = own.frame();
     assert_dark(&own.names, &kept);
-    assert_equal(&own.names, [&kept, &lending.frame()], "sixteen bits");
+    for (format, one) in
+        [(VertexFormat::Unorm16x4, 65535_u16), (VertexFormat::Snorm16x4, 32767), (VertexFormat::Float16x4, 0x3c00)]
+    {
+        let mut lending = Shown::new(&gpu, wanted);
+        let look = materials(lending.casters());
+        let number = |v: f32| if v > 0.75 { one } else { 0 };
+        let words: Vec<[u16; 4]> = mesh.positions.iter().map(|p| [number(p.x), number(p.y), number(p.z), 9]).collect();
+        let buffer = gpu.buffer("vertices", &words, Usage::VERTEX | Usage::STORAGE);
+        let positions = LentVertices { buffer, offset: 0, stride: 8, format };
+        let shape = LentShape::Moving(&mesh, in_bounds(&mesh));
+        let id = lending.casters().lend_mesh(&LentMesh { positions, ..lent(&gpu, &mesh, shape, PLAIN) }).unwrap();
+        cast(lending.casters(), id, look[0], place);
+        assert_equal(&own.names, [&kept, &lending.frame()], &format!("{format:?}"));
+    }
 }
 
 /// The mesh of the tentacles, and its joints at a time.
@@ -419,7 +430,7 @@ fn many_lent_instances_move_with_their_buffer() {
     let by = lent(&gpu, &mesh, LentShape::Unknown(in_bounds(&mesh)), MIXED);
     lending.casters().lend_mesh_again(id, &by).unwrap();
     let (after, seen) = (own.frame(), lending.frame());
-    assert!(!differences(&own.names, [&before, &after], 0.5).is_empty(), "they have moved");
+    assert!(!differences(&own.names, [&before, &after], |_| 0.5).is_empty(), "they have moved");
     assert_near(&own.names, [&after, &seen], "two, elsewhere");
     let mut anew = Shown::new(&gpu, needs_depth);
     let look = materials(anew.casters())[0];
@@ -455,5 +466,5 @@ fn texture_coordinates_are_lent_too() {
         assert_dark(&shown.names, &all[all.len() - 1]);
     }
     let names: Vec<String> = all[0].iter().map(|_| "pcf".into()).collect();
-    assert!(!differences(&names, [&all[0], &all[1]], 0.5).is_empty(), "the net is another");
+    assert!(!differences(&names, [&all[0], &all[1]], |_| 0.5).is_empty(), "the net is another");
 }
