@@ -159,7 +159,7 @@ fn differences(names: &[String], [a, b]: [&[Image<f32>]; 2], least: impl Fn(&str
     let all = names.iter().zip(a.iter().zip(b));
     let count = |(name, (a, b)): (&String, (&Image<f32>, &Image<f32>))| {
         // Not a number differs from everything.
-        let off = |(a, b): (&f32, &f32)| Some((a - b).abs()).filter(|off| !(*off <= least(name)));
+        let off = |(a, b): (&f32, &f32)| Some((a - b).abs()).filter(|off| off.is_nan() || *off > least(name));
         let off: Vec<f32> = a.data.iter().zip(&b.data).filter_map(off).collect();
         let most = off.iter().copied().fold(0.0, f32::max);
         (!off.is_empty()).then(|| format!("{name}: {} pixels, by {most}", off.len()))
