@@ -1,7 +1,7 @@
 //! A host keeps its geometry in buffers of its own and lends them: 50 blocks that come and go, in
-//! vertex, index and instance buffers, and a ring whose vertices a compute shader of the host moves.
-//! A tentacle is bent by umbrage, and drawn by the host from where umbrage has its vertices. No
-//! vertex is copied, and none is moved twice.
+//! vertex, index and instance buffers, and a ring whose vertices a compute shader of the host
+//! moves. A tentacle is bent by umbrage, and drawn by the host from where umbrage has its vertices.
+//! No vertex is copied, and none is moved twice.
 //!
 //!     cargo run -p umbrage --example own_buffers -- picture.png
 

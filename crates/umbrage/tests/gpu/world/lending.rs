@@ -167,8 +167,9 @@ fn differences(names: &[String], [a, b]: [&[Image<f32>]; 2], least: impl Fn(&str
     all.filter_map(count).collect()
 }
 
-/// To the bit; but `wedges` adds up in half floats, in the order in which compute lists edges, which
-/// is not always the same on drivers with several threads: two steps of such a number below 1.
+/// To the bit; but `wedges` adds up in half floats, in the order in which compute lists edges,
+/// which is not always the same on drivers with several threads: two steps of such a number below
+/// 1.
 fn assert_equal(names: &[String], pictures: [&[Image<f32>]; 2], what: &str) {
     let off = differences(names, pictures, |name| if name.starts_with("wedges") { 0.001 } else { 0.0 });
     assert!(off.is_empty(), "{what}:\n{}", off.join("\n"));
