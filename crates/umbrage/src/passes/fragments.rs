@@ -1,12 +1,6 @@
 //! How many fragments passes draw, and what these touch in their attachments.
 
 use super::{Owner, queries::Queries};
-#[cfg(not(target_family = "wasm"))]
-use crate::fullscreen::{Fullscreen, attachment, target_texture};
-#[cfg(not(target_family = "wasm"))]
-use crate::gpu::Gpu;
-#[cfg(not(target_family = "wasm"))]
-use crate::shader::Shader;
 use std::ops::{Deref, DerefMut};
 
 /// What a pass, or all passes of one name in a frame, drew.
@@ -78,7 +72,7 @@ pub(super) struct Counter {
 
 impl Counter {
     #[cfg(not(target_family = "wasm"))]
-    pub fn new(gpu: &Gpu) -> Self {
+    pub fn new(gpu: &crate::Gpu) -> Self {
         Self { queries: Queries::new(gpu, "fragments", wgpu::QueryType::Occlusion, 1), latest: Vec::new() }
     }
 
@@ -131,39 +125,6 @@ pub(super) fn touched(
     };
     let stencil = if format.has_stencil_aspect() && attachment.stencil_ops.is_some() { 2 } else { 0 };
     colors + depth + stencil
-}
-
-/// Fragments of the pass that tells whether a device counts.
-#[cfg(not(target_family = "wasm"))]
-pub(super) const KNOWN: u64 = 24 * 16;
-
-/// How many fragments the device counts in a pass that draws a whole picture of [`KNOWN`] pixels.
-#[cfg(not(target_family = "wasm"))]
-pub(super) fn of_a_known_pass(gpu: &Gpu, recorder: &mut super::Recorder) -> Result<u64, crate::Error> {
-    const SHADER: Shader = Shader::new("white", include_str!("white.wgsl"));
-    let format = wgpu::TextureFormat::R8Unorm;
-    let target = target_texture(gpu, "known fragments", (24, 16), 1, format).create_view(&Default::default());
-    let module = SHADER.module(gpu);
-    let white = Fullscreen {
-        label: "known fragments",
-        module: &module,
-        entry: "white",
-        groups: &[],
-        target: format.into(),
-        constants: &[],
-    };
-    let pipeline = white.pipeline(gpu);
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let mut passes = recorder.begin(&mut encoder);
-    let clear = wgpu::LoadOp::Clear(wgpu::Color::BLACK);
-    let mut pass = passes.render("known fragments", &[attachment(&target, clear)], None);
-    pass.set_pipeline(&pipeline);
-    pass.draw(0..3, 0..1);
-    drop(pass);
-    passes.finish();
-    gpu.queue.submit([encoder.finish()]);
-    gpu.wait()?;
-    Ok(recorder.fragments().iter().map(|pass| pass.fragments).sum())
 }
 
 #[cfg(test)]

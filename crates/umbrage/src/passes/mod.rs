@@ -7,6 +7,8 @@
 
 mod fragments;
 mod kept;
+#[cfg(not(target_family = "wasm"))]
+mod known;
 mod queries;
 mod stamps;
 mod timer;
@@ -85,8 +87,8 @@ impl Recorder {
     #[cfg(not(target_family = "wasm"))]
     pub fn counting(gpu: &Gpu) -> Result<Self, Error> {
         let mut recorder = Self::with(gpu, None, Some(Counter::new(gpu)));
-        let known = fragments::of_a_known_pass(gpu, &mut recorder)?;
-        if known == fragments::KNOWN { Ok(recorder) } else { Err(Error::NotCounted) }
+        let known = known::of_a_known_pass(gpu, &mut recorder)?;
+        if known == known::KNOWN { Ok(recorder) } else { Err(Error::NotCounted) }
     }
 
     fn with(gpu: &Gpu, timer: Option<Timer>, counter: Option<Counter>) -> Self {

@@ -19,8 +19,7 @@ pub(super) const LIBRARY: &[Module] = modules! {
     "silhouettes": extrude;
     "area_light": area_light;
     "depth_maps/draw": map_storage map_view map_depth map_paraboloid contour_record map_edges;
-    "depth_maps/lookup": map_layers map_lookup map_share map_decide map_visibility map_quick
-        map_picture;
+    "depth_maps/lookup": map_layers map_lookup map_share map_visibility map_quick map_picture;
     "depth_maps/stages": light_kernel map_taps map_cells soft_taps;
     "moment_maps": moments_depth moments_float moments_unorm moments_mean moments_passes moments_share moments_lookup
         moments_soft;
@@ -30,12 +29,8 @@ pub(super) const LIBRARY: &[Module] = modules! {
 /// host's shader.
 pub(super) const INLINE: &[Module] = &[
     Module { name: "map_visibility", source: include_str!("../depth_maps/lookup/map_inline.wgsl") },
-    Module { name: "map_quick", source: "// needs: map_visibility, map_decide" },
+    Module { name: "map_quick", source: "// needs: map_visibility" },
 ];
-
-/// What comes last in such a shader, for look-ups in one phase and in two.
-pub(super) const INLINE_WHOLE: &str = include_str!("../depth_maps/lookup/map_inline_whole.wgsl");
-pub(super) const INLINE_QUICK: &str = include_str!("../depth_maps/lookup/map_inline_quick.wgsl");
 
 /// How a host packs the normals of [`crate::Receivers`]: WGSL with `pack_normal(normal, casts) ->
 /// u32`.

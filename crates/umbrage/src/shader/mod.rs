@@ -76,9 +76,7 @@ impl Shader {
     /// As [`Shader::needs`].
     pub(crate) fn inline_text(&self) -> Result<String, Unresolved> {
         let needs = needs::resolve(self.name, self.source, &[library::INLINE, self.modules, library::LIBRARY])?;
-        let is_quick = needs.iter().any(|module| module.name == "map_quick");
-        let last = if is_quick { library::INLINE_QUICK } else { library::INLINE_WHOLE };
-        let sources: Vec<_> = needs.iter().map(|module| module.source).chain([self.source, last]).collect();
+        let sources: Vec<_> = needs.iter().map(|module| module.source).chain([self.source]).collect();
         Ok(sources.join("\n"))
     }
 

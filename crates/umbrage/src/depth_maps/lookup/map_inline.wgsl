@@ -1,7 +1,6 @@
 // needs: map_share
 // What takes the place of the full-screen pass where a shader of a host's own asks: a receiver's
-// place is relative to the eye, with world axes. A host calls one of three functions; `share_at` is
-// the look-up's, in one phase or two.
+// place is relative to the eye, with world axes. A host calls one of three functions.
 
 // What a position may be off, as a share of its coordinates: what interpolating it across a
 // triangle rounds.
@@ -33,15 +32,15 @@ fn step_of_place(pixel: Pixel, step: vec4f) -> vec4f {
 // The share of the light that the surface at `position`, in metres relative to the eye with world
 // axes, sees. `normal` is its geometric normal, of any length but 0, and is turned to the eye.
 fn visibility(position: vec3f, normal: vec3f) -> f32 {
-    return share_at(receiver(position, Surface(turned_to_eye(position, normal), true)));
+    return share_of_light(receiver(position, Surface(turned_to_eye(position, normal), true)));
 }
 
 // The same for a surface that casts no shadow, such as a pane: light comes through to its back.
 fn visibility_of_pane(position: vec3f, normal: vec3f) -> f32 {
-    return share_at(receiver(position, Surface(turned_to_eye(position, normal), false)));
+    return share_of_light(receiver(position, Surface(turned_to_eye(position, normal), false)));
 }
 
 // The same for what has no surface, such as smoke: as for a small sheet that faces the light.
 fn visibility_in_air(position: vec3f) -> f32 {
-    return share_at(receiver(position, Surface(-(map.from_light * vec4f(position, 1.0)).xyz, false)));
+    return share_of_light(receiver(position, Surface(-(map.from_light * vec4f(position, 1.0)).xyz, false)));
 }

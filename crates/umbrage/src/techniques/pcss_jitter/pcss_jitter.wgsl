@@ -5,10 +5,9 @@
 override TESTS: u32 = 8u;
 
 // What the bounds of depth decide: nothing in the way, or so close that the penumbra is lost in a
-// texel.
-fn quick_share(point: MapPoint, pixel: Pixel) -> f32 {
-    let kernel = light_kernel(point, pixel);
-    let half = kernel_box(kernel, farthest_reach(point, kernel));
+// texel. Negative where they leave it open.
+fn narrow_share(point: MapPoint, kernel: LightKernel, reach: f32) -> f32 {
+    let half = kernel_box(kernel, reach);
     if is_cut_by_horizon(kernel) || max(half.x, half.y) > NARROW {
         return -1.0;
     }
@@ -16,10 +15,20 @@ fn quick_share(point: MapPoint, pixel: Pixel) -> f32 {
     return select(0.0, 1.0, is_lit(point, stored.offset, stored.depth));
 }
 
+fn quick_share(point: MapPoint, pixel: Pixel) -> f32 {
+    let kernel = light_kernel(point, pixel);
+    return narrow_share(point, kernel, farthest_reach(point, kernel));
+}
+
 fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let kernel = light_kernel(point, pixel);
+    let reach = farthest_reach(point, kernel);
+    let narrow = narrow_share(point, kernel, reach);
+    if narrow >= 0.0 {
+        return narrow;
+    }
     let first = first_tap(pixel.at);
-    let found = search_blockers(point, kernel, first, farthest_reach(point, kernel));
+    let found = search_blockers(point, kernel, first, reach);
     if found.count == 0.0 && !is_cut_by_horizon(kernel) {
         return 1.0;
     }

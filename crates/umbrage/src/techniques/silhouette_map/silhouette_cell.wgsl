@@ -54,34 +54,36 @@ fn across(a: vec2f, b: vec2f) -> f32 {
 
 // The corner whose part of the cell the receiver is in. Lines from the cell's own point to those of
 // its neighbours are what parts are divided by. Each part is two triangles: of the point, a
-// neighbour's point and the corner.
-fn part_of(cell: Cell, layer: u32) -> vec4<bool> {
-    let own = point_beside(cell, layer, vec2i(0));
-    let way = cell.place - own;
-    let corners = CORNERS;
-    // Around the point, starting at the left: to neighbours, and to the corners that follow them.
-    let beside = vec4f(
-        across(point_beside(cell, layer, vec2i(-1, 0)) - own, way),
-        across(point_beside(cell, layer, vec2i(0, -1)) - own, way),
-        across(point_beside(cell, layer, vec2i(1, 0)) - own, way),
-        across(point_beside(cell, layer, vec2i(0, 1)) - own, way),
-    );
-    let corner = vec4f(
-        across(corners[0] - own, way),
-        across(corners[1] - own, way),
-        across(corners[3] - own, way),
-        across(corners[2] - own, way),
-    );
-    let before = (beside >= vec4f(0.0)) & (corner < vec4f(0.0));
-    let behind = (corner >= vec4f(0.0)) & (beside.yzwx < vec4f(0.0));
-    return (before | behind).xywz;
+// neighbour's point and the corner. A loop goes to the point, then around it from the left, since
+// drivers that mask branches do leave a loop, after one round: where all is decided it is one of a
+// cell that is always the same, whose point is in the caches.
+fn part_of(at: Cell, layer: u32, is_open: bool) -> vec4<bool> {
+    let cell = Cell(select(vec2i(0), at.number, is_open), at.place);
+    var own = vec2f(0.0);
+    var step = vec2i(0);
+    var corner = -1.0;
+    var parts = vec4<bool>(false);
+    // The first neighbour ends the last part.
+    let points = select(1u, 6u, is_open);
+    for (var i = 0u; i < points; i++) {
+        let place = point_beside(cell, layer, step);
+        own = select(own, place, i == 0u);
+        let way = cell.place - own;
+        let beside = across(place - own, way);
+        parts.w |= corner >= 0.0 && beside < 0.0;
+        let next = select(vec2i(-step.y, step.x), vec2i(-1, 0), i == 0u);
+        corner = select(across(0.5 + 0.5 * vec2f(step + next) - own, way), -1.0, i == 0u);
+        let begins = i > 0u && i < 5u;
+        parts = select(parts, vec4<bool>(parts.yzw, beside >= 0.0 && corner < 0.0), begins);
+        step = next;
+    }
+    return parts.xywz;
 }
 
 fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let cell = cell_of(point);
     let lit = lit_at_corners(point, cell);
-    if all(lit) || !any(lit) {
-        return select(0.0, 1.0, lit.x);
-    }
-    return select(0.0, 1.0, any(lit & part_of(cell, point.layer)));
+    let is_open = any(lit) && !all(lit);
+    let part = part_of(cell, point.layer, is_open);
+    return select(0.0, 1.0, select(lit.x, any(lit & part), is_open));
 }
