@@ -1,7 +1,8 @@
 // needs: map_visibility
 // The first phase of a look-up in two: what is quick to decide. The technique says the share of a
 // covered point that is lit, or a negative number where that takes more: `fn quick_share(point:
-// MapPoint, pixel: Pixel) -> f32`. The second phase, `visibility`, is drawn where this one discards.
+// MapPoint, pixel: Pixel) -> f32`. The second phase, `visibility`, is drawn where this one
+// discards.
 
 // The share of the light, negative where `share_of_light` has to find it.
 fn quick_share_of_light(pixel: Pixel) -> f32 {
