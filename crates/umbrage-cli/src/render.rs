@@ -42,6 +42,13 @@ pub struct Render {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = args::size)]
     size: Size,
+    /// Another camera and other lights than the scene's, as the laboratory copies them: tables
+    /// `camera = { … }` and `light = [{ number = 0, … }]` in the words of the scene format
+    #[arg(long, value_name = "TOML")]
+    change: Option<String>,
+    /// Moves every animation on by so many seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, allow_negative_numbers = true)]
+    time: f64,
     /// Rays for each pixel of `ray-traced`; 1 is the perfect hard shadow [default: 1024]
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
@@ -74,7 +81,7 @@ impl Render {
                 "--overlay is a way of shading: it goes with `--aov color` and a technique that knows it, such as `volume`"
             );
         }
-        let source = Source::open(&self.scene)?;
+        let source = Source::open(&self.scene)?.changed(self.change.as_deref(), self.time)?;
         let lights = source.lights(self.light)?;
         self.check_aov(&aov)?;
         let of_one_light = matches!(aov, Aov::Visibility | Aov::Scored | Aov::Inside(_));

@@ -63,7 +63,7 @@ impl Camera {
         let back = (Self::default().near - near).max(0.0);
         let by = self.axes()[2] * back;
         (self.eye, self.target) = (self.eye - by, self.target - by);
-        self.near = near + back;
+        self.near = near.max(Self::default().near);
         self.parallel = Some(Parallel { height, far: far + back });
         self
     }

@@ -21,6 +21,7 @@ mod text;
 
 pub use error::{Error, Place};
 pub use files::Bytes;
+pub use scene_file::{change, changes};
 pub use text::printable;
 
 use files::Files;

@@ -25,6 +25,7 @@ mod read_later;
 mod shading;
 mod targets;
 mod tonemap;
+mod turns;
 
 use gbuffer::GBufferPass;
 use lit::{Lit, Target, Visible};
@@ -33,6 +34,7 @@ use overlay::Overlay;
 use shading::Shading;
 use targets::{PICTURE, Targets};
 use tonemap::ToneMap;
+pub use turns::Lights;
 use umbrage::{Casters, Error, Gpu, Owner, PassTime, Passes, Recorder, Shader, Stats, Technique, VisibilityTarget};
 use umbrage_core::{Camera, Light, LightShape, LitPart, Scene, Texture};
 use web_time::{Duration, Instant};
@@ -82,18 +84,10 @@ impl Renderer {
         gpu.check_size("the picture", width, height)?;
         let casters = Casters::new(gpu, scene)?;
         let (shading, tonemap) = (Shading::new(gpu), ToneMap::new(gpu));
-        for (i, pass) in lights.iter().enumerate() {
-            if lights[..i].iter().any(|other| other.light == pass.light) {
-                return Err(twice(pass.light));
-            }
-        }
-        let lights = lights.into_iter().map(|LightPass { light, technique }| {
-            let target = Target::new(gpu, &shading, technique.answer(), (width, height), None)?;
-            Ok(Lit::new(light, light_of(&scene.lights, light)?, technique, target))
-        });
+        let lights = checked_lights(gpu, &shading, &scene.lights, (width, height), lights)?;
         let textured = scene.lights.iter().any(|l| matches!(l.shape, LightShape::Rect { texture: Some(_), .. }));
         Ok(Self {
-            lights: lights.collect::<Result<_, Error>>()?,
+            lights,
             gpu: gpu.clone(),
             casters,
             gbuffer: GBufferPass::new(gpu),
@@ -256,6 +250,26 @@ impl Renderer {
     pub fn technique(&self, pass: usize) -> Option<&dyn Technique> {
         self.lights.get(pass).map(|l| &*l.technique)
     }
+}
+
+/// The lights of passes, none twice.
+fn checked_lights(
+    gpu: &Gpu,
+    shading: &Shading,
+    all: &[Light],
+    size: (u32, u32),
+    passes: Vec<LightPass>,
+) -> Result<Vec<Lit>, Error> {
+    for (i, pass) in passes.iter().enumerate() {
+        if passes[..i].iter().any(|other| other.light == pass.light) {
+            return Err(twice(pass.light));
+        }
+    }
+    let lit = |LightPass { light, technique }: LightPass| {
+        let target = Target::new(gpu, shading, technique.answer(), size, None)?;
+        Ok(Lit::new(light, light_of(all, light)?, technique, target))
+    };
+    passes.into_iter().map(lit).collect()
 }
 
 fn light_of(lights: &[Light], number: usize) -> Result<Light, Error> {

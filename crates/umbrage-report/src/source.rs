@@ -47,6 +47,19 @@ impl Source {
         Ok(Self { asked: name.into(), scene, notes })
     }
 
+    /// The same with another camera or other lights, see [`umbrage_io::change`], and every animation
+    /// moved on by `time_s` seconds.
+    ///
+    /// # Errors
+    /// Whatever is wrong with the text of the change.
+    pub fn changed(mut self, change: Option<&str>, time_s: f64) -> Result<Self, Error> {
+        if let Some(text) = change {
+            umbrage_io::change(&mut self.scene, text)?;
+        }
+        self.scene.advance(time_s);
+        Ok(self)
+    }
+
     /// The light of this number.
     ///
     /// # Errors

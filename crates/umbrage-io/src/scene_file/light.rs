@@ -41,7 +41,12 @@ impl<'a> Lights<'a> {
 
     /// The light of a table.
     pub fn read(&mut self, scene: &mut Scene, table: &Table<'_>) -> Result<Light, Error> {
-        read(self, scene, table)
+        self.read_with(scene, table, &[])
+    }
+
+    /// The same, where the table has these keys, too.
+    pub fn read_with(&mut self, scene: &mut Scene, table: &Table<'_>, more: &[&str]) -> Result<Light, Error> {
+        read(self, scene, table, more)
     }
 
     fn texture(&mut self, scene: &mut Scene, path: &Value<'_>) -> Result<usize, Error> {
@@ -57,13 +62,13 @@ impl<'a> Lights<'a> {
     }
 }
 
-fn read(lights: &mut Lights<'_>, scene: &mut Scene, table: &Table<'_>) -> Result<Light, Error> {
+fn read(lights: &mut Lights<'_>, scene: &mut Scene, table: &Table<'_>, more: &[&str]) -> Result<Light, Error> {
     let kind = table.require("kind")?;
     let name = kind.string()?;
     let Some((_, keys)) = KINDS.iter().find(|(k, _)| *k == name) else {
         return Err(kind.error(format!("`{name}` is unknown")).did_you_mean(name, KINDS.map(|(k, _)| k)));
     };
-    table.check_keys(&[&COMMON, keys])?;
+    table.check_keys(&[&COMMON, keys, more])?;
     let default = Light::new(read_shape(lights, scene, table, name)?);
     Ok(Light {
         color: table.get_or("color", default.color, Value::color)?,
@@ -108,7 +113,7 @@ fn read_shape(lights: &mut Lights<'_>, scene: &mut Scene, table: &Table<'_>, kin
         "rect" => {
             let direction = direction()?;
             let up = table.require("up")?;
-            let Some(up) = up.direction()?.reject_from_normalized(direction).try_normalize() else {
+            let Some(up) = across(up.direction()?, direction) else {
                 return Err(up.error("lies along `direction`").remedy("give another one"));
             };
             let texture = table.get("texture").map(|v| lights.texture(scene, &v)).transpose()?;
@@ -123,6 +128,11 @@ fn read_shape(lights: &mut Lights<'_>, scene: &mut Scene, table: &Table<'_>, kin
             LightShape::Line { from, to: to.vec3()? }
         }
     })
+}
+
+/// `up` made perpendicular to `direction`, both of unit length; one that is so stays as it is.
+fn across(up: DVec3, direction: DVec3) -> Option<DVec3> {
+    if up.dot(direction).abs() < 1e-15 { Some(up) } else { up.reject_from_normalized(direction).try_normalize() }
 }
 
 /// Inner and outer half angle of a spot, degrees.

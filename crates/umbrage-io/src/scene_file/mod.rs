@@ -1,8 +1,11 @@
 //! Scene files: camera, models and lights in one TOML text.
 
+mod change;
 mod light;
 mod model;
 mod reader;
+
+pub use change::{change, changes};
 
 use crate::files::Files;
 use crate::{Error, Opened, defaults, finish, title};

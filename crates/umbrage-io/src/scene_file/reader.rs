@@ -192,10 +192,11 @@ impl<'a> Value<'a> {
         if v.min_element() >= 0.0 { Ok(v.as_vec3()) } else { Err(self.error(format!("must not be negative: {v}"))) }
     }
 
-    /// A direction, made to unit length.
+    /// A direction, made to unit length; one that has it stays as it is.
     pub fn direction(&self) -> Result<DVec3, Error> {
         let v = self.vec3()?;
-        v.try_normalize().ok_or_else(|| self.error("has no length: it is no direction").remedy("give it one"))
+        let unit = if is_unit(v) { Some(v) } else { v.try_normalize() };
+        unit.ok_or_else(|| self.error("has no length: it is no direction").remedy("give it one"))
     }
 
     /// Two whole numbers, each in its range.
@@ -229,4 +230,9 @@ fn kind_of(value: &DeValue<'_>) -> &'static str {
         DeValue::Array(_) => "a list",
         DeValue::Table(_) => "a table",
     }
+}
+
+/// Of unit length, but for rounding.
+pub(super) fn is_unit(v: DVec3) -> bool {
+    (v.length_squared() - 1.0).abs() < 1e-15
 }
