@@ -1,6 +1,6 @@
 //! ꟻLIP of visibility and of colour pictures.
 
-use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8};
+use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageFloat, FlipImageRgb8};
 use umbrage_core::Image;
 
 /// Mean ꟻLIP over the scored pixels of two visibility pictures of one size, shown as light: linear
@@ -10,6 +10,24 @@ use umbrage_core::Image;
 /// neighbours. A produced value that is not finite is shown as the opposite of the reference. 0
 /// without any scored pixel.
 pub fn of_visibility(produced: &Image<f32>, reference: &Image<f32>, mask: &Image<bool>) -> f64 {
+    let map = visibility_map(produced, reference, mask);
+    let scored: Vec<f32> = map.into_iter().zip(&mask.data).filter(|(_, scored)| **scored).map(|(e, _)| e).collect();
+    mean(&scored)
+}
+
+/// Where that is, in sRGB: from black, no difference, over violet and orange to white, the largest;
+/// the map of colours that ꟻLIP is published with.
+pub fn flip_colors(produced: &Image<f32>, reference: &Image<f32>, mask: &Image<bool>) -> Image<[u8; 3]> {
+    let (width, height) = reference.size();
+    let map = FlipImageFloat::with_data(width, height, &visibility_map(produced, reference, mask));
+    if reference.data.is_empty() {
+        return Image::filled(width, height, [0; 3]);
+    }
+    let colors = map.apply_color_lut(&nv_flip::magma_lut()).to_vec();
+    Image { width, height, data: colors.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect() }
+}
+
+fn visibility_map(produced: &Image<f32>, reference: &Image<f32>, mask: &Image<bool>) -> Vec<f32> {
     let shown: Vec<f32> = (produced.data.iter().zip(&reference.data).zip(&mask.data))
         .map(|((&p, &r), &scored)| match (scored, p.is_finite()) {
             (false, _) => r,
@@ -18,9 +36,7 @@ pub fn of_visibility(produced: &Image<f32>, reference: &Image<f32>, mask: &Image
         })
         .collect();
     let grey = |values: &[f32]| values.iter().flat_map(|&v| [srgb(v); 3]).collect::<Vec<u8>>();
-    let map = map(reference.size(), &grey(&reference.data), &grey(&shown));
-    let scored: Vec<f32> = map.into_iter().zip(&mask.data).filter(|(_, scored)| **scored).map(|(e, _)| e).collect();
-    mean(&scored)
+    map(reference.size(), &grey(&reference.data), &grey(&shown))
 }
 
 /// Mean ꟻLIP of two sRGB pictures of one size.
@@ -63,6 +79,14 @@ mod tests {
         let error = of_colors(&picture(255), &picture(0));
         assert!(error > 0.9 && error <= 1.0, "{error}");
         assert_eq!(of_colors(&picture(9), &picture(9)), 0.0);
+    }
+
+    #[test]
+    fn where_two_differ_is_bright_and_the_rest_black() {
+        let reference = Image::filled(64, 16, 0.0);
+        let produced = Image::from_fn(64, 16, |x, _| if x < 32 { 1.0 } else { 0.0 });
+        let colors = flip_colors(&produced, &reference, &Image::filled(64, 16, true));
+        assert!(colors[(8, 8)][0] > 200 && colors[(60, 8)] == [0, 0, 3], "{:?}", [colors[(8, 8)], colors[(60, 8)]]);
     }
 
     #[test]

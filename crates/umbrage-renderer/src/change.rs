@@ -149,6 +149,14 @@ impl Renderer {
         umbrage::warm_up(&self.gpu, technique, lights, receivers, &camera)
     }
 
+    /// From the next frame on the technique of pass number `pass` draws this one of its views, see
+    /// [`umbrage::Inside::inspect`].
+    pub fn inspect(&mut self, pass: usize, view: Option<&str>) {
+        if let Some(lit) = self.lights.get_mut(pass) {
+            lit.technique.inside_mut().inspect(view);
+        }
+    }
+
     /// The scene's geometry on the GPU.
     pub fn casters(&self) -> &Casters {
         &self.casters

@@ -1,0 +1,291 @@
+//! The laboratory, frame by frame.
+
+use crate::link::{self, Linked};
+use crate::pace::Pace;
+use crate::pane::{Pane, Shared};
+use crate::show::Show;
+use crate::stage::{Opened, Opening, Stage};
+use crate::state::{PaneState, State};
+use crate::truth::{Truth, Wanted};
+use crate::ui::Face;
+use crate::undo::Undo;
+use crate::MOST_PANES;
+use eframe::egui;
+use eframe::egui_wgpu::RenderState;
+use std::sync::Arc;
+use umbrage::{Gpu, Owner, Registry};
+use umbrage_report::{RAY_TRACED, Source};
+use web_time::{Duration, Instant};
+
+/// What a laboratory starts with.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// The scene: a built-in one or a file; the first built-in one where none is named.
+    pub scene: Option<String>,
+    /// The techniques of the panes, with their settings.
+    pub techniques: Vec<String>,
+    /// A permalink, in the place of all other options.
+    pub state: Option<String>,
+    /// The graphics adapter: a part of its name, or `software`.
+    pub adapter: Option<String>,
+}
+
+/// The laboratory without a window.
+pub struct Lab {
+    pub(crate) gpu: Gpu,
+    paint: RenderState,
+    pub(crate) registry: Registry,
+    show: Show,
+    pub(crate) state: State,
+    pub(crate) undo: Undo,
+    pub(crate) stage: Option<Stage>,
+    stage_version: u64,
+    pub(crate) opening: Option<Opening>,
+    /// To be taken over when its scene is open.
+    linked: Option<Linked>,
+    pub(crate) panes: Vec<Pane>,
+    pub(crate) truth: Truth,
+    pub(crate) pace: Pace,
+    /// What is not part of the state: what is chosen, what is open.
+    pub(crate) face: Face,
+    last_frame: Instant,
+}
+
+impl Lab {
+    /// Starts in the window, or the test, that `context` is of.
+    ///
+    /// # Errors
+    /// A sentence: there is no device, or the options are wrong.
+    pub fn new(context: &eframe::CreationContext<'_>, registry: &Registry, options: &Options) -> Result<Self, String> {
+        let paint = context.wgpu_render_state.clone().ok_or("there is no graphics device to draw with")?;
+        let gpu = Gpu::new(paint.device.clone(), paint.queue.clone());
+        let mut lab = Self {
+            show: Show::new(&gpu),
+            gpu,
+            paint,
+            registry: registry.clone(),
+            state: State::default(),
+            undo: Undo::default(),
+            stage: None,
+            stage_version: 0,
+            opening: None,
+            linked: None,
+            panes: Vec::new(),
+            truth: Truth::new(),
+            pace: Pace::default(),
+            face: Face::new(&context.egui_ctx),
+            last_frame: Instant::now(),
+        };
+        if let Some(link) = &options.state {
+            lab.follow(link)?;
+        } else {
+            let panes = options.techniques.iter().take(MOST_PANES).map(|t| PaneState::new(t));
+            let panes: Vec<PaneState> = panes.collect();
+            if !panes.is_empty() {
+                lab.state.panes = panes;
+            }
+            let scene = options.scene.clone().unwrap_or_else(|| lab.state.scene.clone());
+            lab.open(&scene);
+        }
+        Ok(lab)
+    }
+
+    /// Opens a scene, as users name it.
+    pub(crate) fn open(&mut self, name: &str) {
+        let asked = name.to_string();
+        self.opening = Some(Opening::start(name, move || Source::open(&asked).map_err(|e| e.to_string())));
+    }
+
+    /// Goes where a permalink leads.
+    ///
+    /// # Errors
+    /// A sentence: it is none.
+    pub(crate) fn follow(&mut self, link: &str) -> Result<(), String> {
+        let linked = link::read(link)?;
+        let scene = linked.scene().to_string();
+        self.linked = Some(linked);
+        match &self.stage {
+            Some(stage) if stage.source.asked == scene => self.take_link(),
+            _ => self.open(&scene),
+        }
+        Ok(())
+    }
+
+    fn take_link(&mut self) {
+        let (Some(linked), Some(stage)) = (self.linked.take(), &self.stage) else { return };
+        match linked.of(&stage.source.scene) {
+            Ok(state) => self.state = state,
+            Err(error) => self.face.say(error),
+        }
+    }
+
+    /// One frame: takes over what has come, shows and asks, and draws what has changed.
+    pub(crate) fn frame(&mut self, ui: &mut egui::Ui) {
+        let now = Instant::now();
+        let passed = now.duration_since(self.last_frame).min(Duration::from_millis(250));
+        self.last_frame = now;
+        if let Err(error) = self.gpu.check() {
+            self.face.say(error.to_string());
+        }
+        self.poll();
+        self.take();
+        crate::ui::show(self, ui, passed.as_secs_f64());
+        self.draw();
+        self.want_truth();
+        if !ui.ctx().input(|i| i.pointer.any_down()) && self.stage.is_some() {
+            self.undo.keep(&self.state);
+        }
+        self.last_to_do(ui.ctx());
+    }
+
+    /// Has the device say what is done; browsers do so by themselves.
+    fn poll(&self) {
+        // What it returns is news of the queue, which nobody asked for.
+        let _ = self.gpu.device.poll(wgpu::PollType::Poll);
+    }
+
+    fn take(&mut self) {
+        self.take_opened();
+        self.truth.take();
+        let (truth, state) = (self.traced(), &self.state);
+        let shared = Shared {
+            gpu: &self.gpu,
+            registry: &self.registry,
+            show: &self.show,
+            state,
+            truth: &truth,
+            truth_version: self.truth.version(),
+            stage_version: self.stage_version,
+        };
+        self.panes.iter_mut().for_each(|pane| pane.take(&shared));
+    }
+
+    fn traced(&self) -> Vec<Arc<crate::truth::Traced>> {
+        self.state.shining().into_iter().filter_map(|light| self.truth.of(light).cloned()).collect()
+    }
+
+    fn take_opened(&mut self) {
+        loop {
+            match self.opening.as_ref().map(Opening::take) {
+                None | Some(Ok(None)) => return,
+                Some(Err(())) => self.opening = None,
+                Some(Ok(Some(Opened::Tracer(tracer)))) => {
+                    if let Some(stage) = &mut self.stage {
+                        stage.tracer = Some(tracer);
+                    }
+                }
+                Some(Ok(Some(Opened::Scene(source)))) => {
+                    if let Err(error) = source.and_then(|source| self.enter(source)) {
+                        self.face.say(error);
+                        self.opening = None;
+                        self.linked = None;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Shows another scene from now on.
+    fn enter(&mut self, source: Source) -> Result<(), String> {
+        source.light(0).map_err(|e| e.to_string())?;
+        let size = self.panes.first().map_or((64, 48), Pane::size);
+        source.notes.iter().for_each(|note| self.face.say(note.clone()));
+        let stage = Stage::new(&self.gpu, source, size)?;
+        self.panes.iter_mut().for_each(Pane::forget);
+        self.stage_version += 1;
+        self.pace = Pace::default();
+        self.truth.want(None);
+        let scene = &stage.source.scene;
+        self.state = State {
+            scene: stage.source.asked.clone(),
+            camera: scene.camera.clone(),
+            lights: scene.lights.clone(),
+            time_s: 0.0,
+            light: Some(0),
+            observer: None,
+            ..self.state.clone()
+        };
+        self.stage = Some(stage);
+        self.take_link();
+        Ok(())
+    }
+
+    /// Draws the panes that have changed.
+    fn draw(&mut self) {
+        let size = self.face.picture_size(self.state.divisor.unwrap_or(self.pace.divisor()));
+        let Some(size) = size else { return };
+        while self.panes.len() < self.state.panes.len() {
+            self.panes.push(Pane::new(&self.gpu, &self.paint, size));
+        }
+        for pane in self.panes.drain(self.state.panes.len()..) {
+            self.paint.renderer.write().free_texture(&pane.id);
+        }
+        let truth = self.traced();
+        let Some(stage) = &mut self.stage else { return };
+        if let Err(error) = stage.renderer.resize(size.0, size.1) {
+            self.face.say(error.to_string());
+            return;
+        }
+        let shared = Shared {
+            gpu: &self.gpu,
+            registry: &self.registry,
+            show: &self.show,
+            state: &self.state,
+            truth: &truth,
+            truth_version: self.truth.version(),
+            stage_version: self.stage_version,
+        };
+        let mut took = 0.0;
+        let mut all = true;
+        for (pane, wanted) in self.panes.iter_mut().zip(&self.state.panes) {
+            pane.resize(&self.gpu, &self.paint, size);
+            if pane.draw(&shared, stage, wanted, self.face.draws_always) {
+                took += pane.times.iter().map(|t| t.time_ms).sum::<f64>();
+            } else {
+                all = false;
+            }
+        }
+        if all {
+            self.pace.took(took);
+        }
+    }
+
+    /// Has the truth traced that panes show or are compared with.
+    fn want_truth(&mut self) {
+        let Some(stage) = &self.stage else { return };
+        let Some(tracer) = stage.tracer.clone().filter(|_| self.face.traces) else {
+            self.truth.want(None);
+            return;
+        };
+        let all = self.state.panes.iter().any(|pane| pane.technique == RAY_TRACED);
+        let mut numbers = self.state.shining();
+        if !all {
+            // Errors are those of one light.
+            numbers.truncate(1);
+        }
+        let lights = numbers.into_iter().filter_map(|n| Some((n, self.state.lights.get(n)?.clone()))).collect();
+        let size = stage.renderer.size();
+        let camera = self.state.eye().clone();
+        self.truth.want(Some(Wanted { tracer, camera, size, lights, textures: stage.textures.clone() }));
+    }
+
+    /// Asks for the next frame where something goes on by itself.
+    fn last_to_do(&self, context: &egui::Context) {
+        if self.face.is_moving() || self.face.draws_always || self.panes.iter().any(Pane::is_waiting) {
+            context.request_repaint();
+        } else if self.opening.is_some() || self.truth.is_under_way() {
+            context.request_repaint_after(Duration::from_millis(60));
+        }
+    }
+
+    /// GPU time of a part of the host in the newest frame of a pane, milliseconds.
+    pub(crate) fn host_ms(pane: &Pane) -> f64 {
+        pane.times.iter().filter(|t| matches!(t.owner, Owner::Host(_))).map(|t| t.time_ms).sum()
+    }
+}
+
+impl eframe::App for Lab {
+    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        self.frame(ui);
+    }
+}

@@ -1,0 +1,35 @@
+//! The laboratory: every shadow technique beside the ray-traced truth in one window, native and in
+//! the browser.
+//!
+//! No algorithm is in here and no technique is named: menus, sliders, views and help come from the
+//! [`umbrage::Registry`]. [`Lab`] is the laboratory without a window, driven by [`eframe`]; `run`
+//! opens the window.
+
+mod app;
+mod camera;
+mod later;
+mod link;
+#[cfg(not(target_family = "wasm"))]
+mod native;
+mod pace;
+mod pane;
+mod show;
+mod slow;
+mod stage;
+mod state;
+mod truth;
+mod ui;
+mod undo;
+
+pub use app::{Lab, Options};
+#[cfg(not(target_family = "wasm"))]
+pub use native::run;
+pub use show::SHADER;
+pub use state::{Layout, PaneState, State};
+
+/// How many times as strong as they are errors can be shown.
+pub(crate) const GAINS: [f32; 2] = [1.0, 64.0];
+/// Pixels of the window for each pixel of the picture, at most.
+pub(crate) const LARGEST_DIVISOR: u32 = 8;
+/// Panes, at most.
+pub(crate) const MOST_PANES: usize = 4;

@@ -1,0 +1,205 @@
+//! The light that is shown: its kind, place and size.
+
+use crate::app::Lab;
+use crate::camera::{sun_angles, sun_direction};
+use eframe::egui::{self, DragValue, Slider};
+use umbrage_core::glam::{DMat3, DVec2, DVec3};
+use umbrage_core::{Light, LightKind, LightShape};
+
+pub(super) fn show(lab: &mut Lab, ui: &mut egui::Ui) {
+    let radius = lab.stage.as_ref().map_or(1.0, |stage| stage.radius).max(1e-3);
+    ui.heading("Light");
+    let names: Vec<String> = (lab.state.lights.iter().enumerate())
+        .map(|(number, light)| format!("{number}: {}", light.shape.kind().name()))
+        .collect();
+    let now = lab.state.light.and_then(|light| names.get(light).cloned()).unwrap_or_else(|| "all".into());
+    egui::ComboBox::from_label("shines").selected_text(now).show_ui(ui, |ui| {
+        for (number, name) in names.iter().enumerate() {
+            ui.selectable_value(&mut lab.state.light, Some(number), name);
+        }
+        ui.selectable_value(&mut lab.state.light, None, "all");
+    });
+    let number = lab.state.light.unwrap_or_default();
+    let Some(light) = lab.state.lights.get_mut(number) else { return };
+    kind(light, radius, ui);
+    egui::Grid::new("light").num_columns(2).show(ui, |ui| shape(&mut light.shape, radius, ui));
+    ui.add(Slider::new(&mut light.intensity, 0.0..=20.0).logarithmic(true).text("intensity"));
+    let original = lab.stage.as_ref().and_then(|stage| stage.source.scene.lights.get(number));
+    if let Some(original) = original
+        && ui.add_enabled(original != light, egui::Button::new("As the scene has it")).clicked()
+    {
+        light.clone_from(original);
+    }
+}
+
+fn kind(light: &mut Light, radius: f64, ui: &mut egui::Ui) {
+    let now = light.shape.kind();
+    let mut chosen = now;
+    egui::ComboBox::from_label("kind").selected_text(now.name()).show_ui(ui, |ui| {
+        for kind in LightKind::ALL {
+            ui.selectable_value(&mut chosen, kind, kind.name());
+        }
+    });
+    if chosen != now {
+        light.shape = changed(&light.shape, chosen, radius);
+    }
+}
+
+/// A light of another kind in the same place, as large as before where both have an extent.
+fn changed(shape: &LightShape, kind: LightKind, radius: f64) -> LightShape {
+    let (away, is_parallel) = (shape.center().truncate(), shape.center().w == 0.0);
+    let position = if is_parallel { away * radius * 2.0 } else { away };
+    let size = if is_parallel || shape.radius() == 0.0 { radius * 0.04 } else { shape.radius() };
+    let direction = match shape {
+        LightShape::Spot { direction, .. }
+        | LightShape::Directional { direction, .. }
+        | LightShape::Disc { direction, .. }
+        | LightShape::Rect { direction, .. } => *direction,
+        _ => (-position).normalize_or(DVec3::NEG_Y),
+    };
+    match kind {
+        LightKind::Point => LightShape::Point { position },
+        LightKind::Spot => LightShape::Spot { position, direction, inner_angle_deg: 25.0, outer_angle_deg: 35.0 },
+        LightKind::Directional => LightShape::Directional { direction, angle_deg: 0.0 },
+        LightKind::Sun => LightShape::Directional { direction, angle_deg: 2.0 },
+        LightKind::Sphere => LightShape::Sphere { position, radius: size },
+        LightKind::Ellipsoid => LightShape::Ellipsoid {
+            position,
+            radii: DVec3::new(size, size * 0.5, size * 0.5),
+            rotation: DMat3::IDENTITY,
+        },
+        LightKind::Disc => LightShape::Disc { position, direction, radius: size },
+        LightKind::Rect => {
+            let up = direction.any_orthonormal_vector();
+            LightShape::Rect { position, direction, up, size: DVec2::splat(size * 1.4), texture: None }
+        }
+        LightKind::Line => {
+            let half = direction.any_orthonormal_vector() * size;
+            LightShape::Line { from: position - half, to: position + half }
+        }
+    }
+}
+
+fn shape(shape: &mut LightShape, radius: f64, ui: &mut egui::Ui) {
+    match shape {
+        LightShape::Point { position } => place(ui, "position", position, radius),
+        LightShape::Spot { position, direction, inner_angle_deg, outer_angle_deg } => {
+            place(ui, "position", position, radius);
+            aim(ui, direction);
+            number(ui, "inner angle", inner_angle_deg, 0.0..=*outer_angle_deg, "°");
+            number(ui, "outer angle", outer_angle_deg, inner_angle_deg.max(0.5)..=89.0, "°");
+        }
+        LightShape::Directional { direction, angle_deg } => {
+            aim(ui, direction);
+            time_of_day(ui, direction);
+            number(ui, "diameter", angle_deg, 0.0..=20.0, "°");
+        }
+        LightShape::Sphere { position, radius: size } => {
+            place(ui, "position", position, radius);
+            number(ui, "radius", size, 0.0..=radius * 0.5, " m");
+        }
+        LightShape::Ellipsoid { position, radii, .. } => {
+            place(ui, "position", position, radius);
+            for (name, size) in ["radius x", "radius y", "radius z"].into_iter().zip(radii.as_mut()) {
+                number(ui, name, size, radius * 1e-3..=radius * 0.5, " m");
+            }
+        }
+        LightShape::Disc { position, direction, radius: size } => {
+            place(ui, "position", position, radius);
+            aim(ui, direction);
+            number(ui, "radius", size, 0.0..=radius * 0.5, " m");
+        }
+        LightShape::Rect { position, direction, up, size, .. } => {
+            place(ui, "position", position, radius);
+            let before = *direction;
+            aim(ui, direction);
+            if before != *direction {
+                let turned = up.reject_from_normalized(*direction);
+                *up = turned.try_normalize().unwrap_or_else(|| direction.any_orthonormal_vector());
+            }
+            number(ui, "width", &mut size.x, radius * 1e-3..=radius, " m");
+            number(ui, "height", &mut size.y, radius * 1e-3..=radius, " m");
+        }
+        LightShape::Line { from, to } => {
+            let before = *to;
+            place(ui, "from", from, radius);
+            place(ui, "to", to, radius);
+            if from == to {
+                // A line without length is none.
+                *to = if before == *from { *from + DVec3::X * radius * 1e-3 } else { before };
+            }
+        }
+    }
+}
+
+fn number(ui: &mut egui::Ui, name: &str, value: &mut f64, range: std::ops::RangeInclusive<f64>, unit: &str) {
+    ui.label(name);
+    ui.add(Slider::new(value, range).suffix(unit));
+    ui.end_row();
+}
+
+fn place(ui: &mut egui::Ui, name: &str, value: &mut DVec3, radius: f64) {
+    ui.label(name);
+    ui.horizontal(|ui| {
+        for part in value.as_mut() {
+            ui.add(DragValue::new(part).speed(radius * 0.005).max_decimals(4).suffix(" m"));
+        }
+    });
+    ui.end_row();
+}
+
+fn aim(ui: &mut egui::Ui, direction: &mut DVec3) {
+    let mut angles = sun_angles(*direction);
+    let [azimuth, height] = &mut angles;
+    ui.label("from");
+    let round = ui.add(Slider::new(azimuth, 0.0..=360.0).suffix("°").text("round"));
+    ui.end_row();
+    ui.label("");
+    let up = ui.add(Slider::new(height, -90.0..=90.0).suffix("°").text("up"));
+    ui.end_row();
+    if round.changed() || up.changed() {
+        *direction = sun_direction(angles);
+    }
+}
+
+/// How high the sun gets, degrees: that of the middle latitudes in spring.
+const NOON_DEG: f64 = 50.0;
+
+/// The sun of a day in spring: it rises in the east at six and sets in the west at eighteen.
+fn time_of_day(ui: &mut egui::Ui, direction: &mut DVec3) {
+    let to = -*direction;
+    let noon = NOON_DEG.to_radians();
+    let mut hour = 12.0 + (-to.x).atan2((to.y / noon.sin()).max(1e-9)).to_degrees() / 15.0;
+    ui.label("time of day");
+    let text = |hour: f64| format!("{:02}:{:02}", hour as u32, (hour.fract() * 60.0) as u32);
+    let slider = Slider::new(&mut hour, 6.1..=17.9).custom_formatter(move |hour, _| text(hour));
+    if ui.add(slider).changed() {
+        let angle = ((hour - 12.0) * 15.0f64).to_radians();
+        *direction = -DVec3::new(-angle.sin(), angle.cos() * noon.sin(), angle.cos() * noon.cos()).normalize();
+    }
+    ui.end_row();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_becomes_every_other_and_can_shine() {
+        for from in LightKind::ALL {
+            let start = changed(&LightShape::Point { position: DVec3::new(1.0, 3.0, 2.0) }, from, 5.0);
+            for to in LightKind::ALL {
+                let light = Light::new(changed(&start, to, 5.0));
+                assert_eq!(light.shape.kind(), to);
+                assert!(light.usable().is_ok(), "{} to {}", from.name(), to.name());
+            }
+        }
+    }
+
+    #[test]
+    fn a_soft_light_keeps_its_size() {
+        let sphere = LightShape::Sphere { position: DVec3::Y, radius: 0.3 };
+        let LightShape::Disc { radius, .. } = changed(&sphere, LightKind::Disc, 5.0) else { panic!("another kind") };
+        assert_eq!(radius, 0.3);
+    }
+}

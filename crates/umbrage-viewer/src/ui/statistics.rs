@@ -1,0 +1,131 @@
+//! What the active pane costs, and how far from the truth it is.
+
+use crate::app::Lab;
+use crate::pane::{HISTORY, Pane};
+use eframe::egui::{self, Color32, Pos2, Stroke, Vec2};
+use std::collections::BTreeMap;
+use umbrage::Owner;
+
+pub(super) fn show(lab: &mut Lab, ui: &mut egui::Ui) {
+    let Some(pane) = lab.panes.get(lab.face.active) else { return };
+    ui.heading("Costs");
+    times(pane, ui);
+    sparkline(pane, ui);
+    egui::Grid::new("stats").num_columns(2).show(ui, |ui| {
+        let mut line = |name: &str, value: String| {
+            ui.label(name);
+            ui.label(value);
+            ui.end_row();
+        };
+        let stats = &pane.stats;
+        line("prepare (CPU)", format!("{:.3} ms", pane.prepare_ms));
+        line("draws", stats.draws.to_string());
+        line("triangles", stats.triangles.to_string());
+        line("casters drawn", stats.casters_drawn.to_string());
+        line("casters culled", stats.casters_culled.to_string());
+        line("memory", format!("{:.1} MiB", stats.bytes as f64 / 1_048_576.0));
+        pane.counts.iter().for_each(|(name, count)| line(name, count.to_string()));
+    });
+    ui.separator();
+    ui.heading("Error");
+    errors(lab, ui);
+    ui.separator();
+    ui.heading("Picture");
+    let (width, height) = pane.size();
+    let divisor = lab.state.divisor.unwrap_or(lab.pace.divisor());
+    ui.label(format!("{width} × {height} pixels, 1 of {} of the window's", divisor * divisor));
+    let mut chosen = lab.state.divisor;
+    egui::ComboBox::from_label("resolution").selected_text(resolution(chosen)).show_ui(ui, |ui| {
+        for divisor in [None, Some(1), Some(2), Some(4), Some(8)] {
+            ui.selectable_value(&mut chosen, divisor, resolution(divisor));
+        }
+    });
+    lab.state.divisor = chosen;
+    ui.add(egui::Slider::new(&mut lab.state.gain, crate::GAINS[0]..=crate::GAINS[1]).logarithmic(true).text("error ×"));
+    range(lab, ui);
+    ui.weak(format!("{} ({})", lab.gpu.adapter().name, lab.gpu.adapter().driver));
+}
+
+fn resolution(divisor: Option<u32>) -> String {
+    match divisor {
+        None => "as the adapter can".into(),
+        Some(1) => "full".into(),
+        Some(n) => format!("1/{n}"),
+    }
+}
+
+/// GPU time by pass, as bars.
+fn times(pane: &Pane, ui: &mut egui::Ui) {
+    if pane.times.is_empty() {
+        ui.weak("This adapter keeps no time.");
+        return;
+    }
+    let mut passes: BTreeMap<&str, f64> = BTreeMap::new();
+    for time in pane.times.iter().filter(|t| matches!(t.owner, Owner::Light(_))) {
+        *passes.entry(&time.pass).or_default() += time.time_ms;
+    }
+    let all: f64 = passes.values().sum();
+    ui.label(format!("technique {all:.2} ms"));
+    for (name, ms) in &passes {
+        let share = (ms / all.max(1e-9)) as f32;
+        ui.add(egui::ProgressBar::new(share).text(format!("{name} {ms:.2} ms")).corner_radius(2));
+    }
+    ui.weak(format!("the rest of the frame {:.2} ms", Lab::host_ms(pane)));
+}
+
+/// The technique's time in the last frames.
+fn sparkline(pane: &Pane, ui: &mut egui::Ui) {
+    let (area, painter) = ui.allocate_painter(Vec2::new(ui.available_width(), 36.0), egui::Sense::hover());
+    let highest = pane.history.iter().copied().fold(0.0, f32::max);
+    if highest <= 0.0 {
+        return;
+    }
+    let rect = area.rect;
+    let at = |(i, ms): (usize, &f32)| {
+        let x = rect.left() + rect.width() * i as f32 / (HISTORY - 1) as f32;
+        Pos2::new(x, rect.bottom() - rect.height() * ms / highest)
+    };
+    let points: Vec<Pos2> = pane.history.iter().enumerate().map(at).collect();
+    painter.line(points, Stroke::new(1.0, Color32::LIGHT_BLUE));
+    area.on_hover_text(format!("The last {} frames; the slowest took {highest:.2} ms", pane.history.len()));
+}
+
+fn errors(lab: &Lab, ui: &mut egui::Ui) {
+    let truth = lab.truth.of(lab.state.light.unwrap_or_default());
+    match truth {
+        Some(truth) if truth.samples > 0 => {
+            let error = truth.standard_error.map(|e| format!(", standard error {e:.4}")).unwrap_or_default();
+            ui.weak(format!("truth: {} rays a pixel{error}", truth.samples));
+        }
+        _ if lab.face.traces => _ = ui.weak("the truth is being traced…"),
+        _ => _ = ui.weak("the truth is not traced (Panes, Trace the truth)"),
+    }
+    let Some(scores) = lab.panes.get(lab.face.active).and_then(|pane| pane.scores) else { return };
+    egui::Grid::new("scores").num_columns(2).show(ui, |ui| {
+        let mut line = |name: &str, value: f64, about: &str| {
+            ui.label(name).on_hover_text(about);
+            ui.label(format!("{value:.4}"));
+            ui.end_row();
+        };
+        line("mae", scores.mae, "Mean of the absolute error of visibility");
+        line("leak", scores.leak, "Light in the shadow");
+        line("false shadow", scores.false_shadow, "Shadow in the light");
+        line("p99", scores.p99, "One pixel of a hundred is off by more");
+        line("correct %", scores.correct_pct, "Pixels that are off by 0.02 at most");
+    });
+}
+
+/// What is black and what is white in pictures of numbers.
+fn range(lab: &mut Lab, ui: &mut egui::Ui) {
+    let found = lab.panes.get(lab.face.active).and_then(|pane| pane.extremes);
+    let mut is_set = lab.state.range.is_some();
+    if ui.checkbox(&mut is_set, "stretch").on_hover_text("From which number to which views show black to white").changed() {
+        lab.state.range = is_set.then(|| found.unwrap_or([0.0, 1.0]));
+    }
+    if let Some([low, high]) = &mut lab.state.range {
+        ui.horizontal(|ui| {
+            ui.add(egui::DragValue::new(low).speed(0.002).range(f32::MIN..=*high - f32::EPSILON));
+            ui.add(egui::DragValue::new(high).speed(0.002).range(*low + f32::EPSILON..=f32::MAX));
+        });
+    }
+}
