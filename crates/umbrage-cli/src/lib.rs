@@ -16,6 +16,8 @@ mod list;
 mod render;
 mod say;
 mod sweep;
+#[cfg(feature = "view")]
+mod view;
 
 use clap::{Parser, Subcommand};
 use std::{ffi::OsString, process::ExitCode};
@@ -35,6 +37,7 @@ Examples:
   umbrage compare primitives --techniques all -o out  a table, and out/index.html
   umbrage render atrium --technique pcf -o atrium.png
   umbrage sweep primitives                            error against cost, in out/sweep/index.html
+  umbrage view primitives                             the laboratory: a window to turn, set and compare
 
 A SCENE is the name of a built-in scene (`primitives`, `atrium:0.25` with its detail) or a file:
 *.scene.toml, *.gltf, *.glb, *.obj. `umbrage COMMAND --help` shows the examples of each command.";
@@ -47,6 +50,8 @@ enum Command {
     Compare(compare::Compare),
     Bench(bench::Bench),
     Sweep(sweep::Sweep),
+    #[cfg(feature = "view")]
+    View(view::View),
 }
 
 /// What a command works with.
@@ -72,6 +77,8 @@ pub fn run(registry: &Registry, line: impl IntoIterator<Item = OsString>) -> Exi
         Command::Compare(compare) => compare.run(&context),
         Command::Bench(bench) => bench.run(&context),
         Command::Sweep(sweep) => sweep.run(&context),
+        #[cfg(feature = "view")]
+        Command::View(view) => view.run(&context),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -43,6 +43,11 @@ impl Renderer {
         Ok(())
     }
 
+    /// Pixels of pictures across and down.
+    pub fn size(&self) -> (u32, u32) {
+        self.targets.size()
+    }
+
     /// The visibility that pass number `pass` left, as a texture: one channel of floats, 0…1. What
     /// surfaces hold that receive no shadows means nothing. Another one after [`Renderer::resize`].
     ///

@@ -30,6 +30,16 @@ fn unusable(backend: wgpu::Backend, flags: Flags) -> Option<String> {
 }
 
 impl Gpu {
+    /// The best of a host's own `adapters` that can do the work, or the one that `wanted` names: a
+    /// part of its name or kind (`software`, `nvidia`, …), or its number, best first.
+    ///
+    /// # Errors
+    /// [`Error::NoAdapter`], [`Error::Unknown`].
+    pub fn choose(mut adapters: Vec<wgpu::Adapter>, wanted: Option<&str>) -> Result<wgpu::Adapter, Error> {
+        sort(&mut adapters);
+        choose(adapters, wanted)
+    }
+
     /// The adapters of this machine, best first, software ones last; those that can't be used come
     /// with their reason. In a browser it is the one that the browser chooses.
     pub async fn adapters_async() -> Vec<AdapterSummary> {
@@ -94,6 +104,12 @@ async fn enumerate() -> Vec<wgpu::Adapter> {
     if adapters.is_empty() {
         adapters = instance.enumerate_adapters(wgpu::Backends::all()).await;
     }
+    sort(&mut adapters);
+    adapters
+}
+
+/// Hardware first.
+fn sort(adapters: &mut [wgpu::Adapter]) {
     adapters.sort_by_key(|a| match a.get_info().device_type {
         wgpu::DeviceType::DiscreteGpu => 0,
         wgpu::DeviceType::IntegratedGpu => 1,
@@ -101,7 +117,6 @@ async fn enumerate() -> Vec<wgpu::Adapter> {
         wgpu::DeviceType::Other => 3,
         wgpu::DeviceType::Cpu => 4,
     });
-    adapters
 }
 
 /// The first adapter that can be used, or the one that `wanted` names.
