@@ -25,9 +25,9 @@ mod ssim;
 pub use color::{ColorScores, color_scores};
 pub use discontinuity::discontinuities;
 pub use error::Error;
+pub use flicker::{FixedPoint, Flicker, Frame, fixed_points};
 #[cfg(feature = "flip")]
 pub use flip::flip_colors;
-pub use flicker::{FixedPoint, Flicker, Frame, fixed_points};
 pub use footprint::{Aliasing, aliasing, footprint_colors, map_reach, reach_of, texel_footprint};
 pub use heat::heat;
 pub use interior::{REACH_PIXELS, interior};

@@ -1,5 +1,6 @@
 //! The laboratory, frame by frame.
 
+use crate::MOST_PANES;
 use crate::link::{self, Linked};
 use crate::pace::Pace;
 use crate::pane::{Pane, Shared};
@@ -9,7 +10,6 @@ use crate::state::{PaneState, State};
 use crate::truth::{Truth, Wanted};
 use crate::ui::Face;
 use crate::undo::Undo;
-use crate::MOST_PANES;
 use eframe::egui;
 use eframe::egui_wgpu::RenderState;
 use std::sync::Arc;
@@ -157,7 +157,9 @@ impl Lab {
             truth_version: self.truth.version(),
             stage_version: self.stage_version,
         };
-        self.panes.iter_mut().for_each(|pane| pane.take(&shared));
+        for pane in &mut self.panes {
+            pane.take(&shared);
+        }
     }
 
     fn traced(&self) -> Vec<Arc<crate::truth::Traced>> {
@@ -276,6 +278,32 @@ impl Lab {
         } else if self.opening.is_some() || self.truth.is_under_way() {
             context.request_repaint_after(Duration::from_millis(60));
         }
+    }
+
+    /// A scene is open, and the panes show it.
+    pub fn is_shown(&self) -> bool {
+        let is_drawn = |pane: &Pane| pane.error.is_some() || pane.visibility.is_some();
+        self.opening.is_none() && self.panes.len() == self.state.panes.len() && self.panes.iter().all(is_drawn)
+    }
+
+    /// Rays for each pixel of the truth about the light that is shown, so far.
+    pub fn truth_samples(&self) -> u32 {
+        self.truth.of(self.state.light.unwrap_or_default()).map_or(0, |truth| truth.samples)
+    }
+
+    /// The mean absolute error of a pane against the truth as far as it is known.
+    pub fn mae(&self, pane: usize) -> Option<f64> {
+        self.panes.get(pane)?.scores.map(|scores| scores.mae)
+    }
+
+    /// Why a pane shows no picture.
+    pub fn error(&self, pane: usize) -> Option<&str> {
+        self.panes.get(pane)?.error.as_deref()
+    }
+
+    /// What the laboratory shows.
+    pub fn state(&self) -> &State {
+        &self.state
     }
 
     /// GPU time of a part of the host in the newest frame of a pane, milliseconds.

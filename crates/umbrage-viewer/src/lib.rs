@@ -23,7 +23,7 @@ mod undo;
 
 pub use app::{Lab, Options};
 #[cfg(not(target_family = "wasm"))]
-pub use native::run;
+pub use native::{run, setup};
 pub use show::SHADER;
 pub use state::{Layout, PaneState, State};
 

@@ -224,7 +224,8 @@ mod tests {
     #[test]
     fn a_state_comes_back_as_it_was() {
         let mut state = state();
-        let again = |state: &State| read(&format!("https://a.example/#{}", write(state, &scene()))).unwrap().of(&scene());
+        let again =
+            |state: &State| read(&format!("https://a.example/#{}", write(state, &scene()))).unwrap().of(&scene());
         assert_eq!(again(&state).as_ref(), Ok(&state));
         state.camera.eye.x = 1.0 / 3.0;
         state.lights[1].shape = LightShape::Sphere { position: DVec3::ONE, radius: 0.1 };
@@ -265,7 +266,10 @@ mod tests {
         assert_eq!(quoted("it's"), r"'it'\''s'");
         let made = "let mut technique = umbrage::light_samples(&gpu, &umbrage::parse(\"shadow-map:size=512\")?, 4)?;";
         assert_eq!(rust(&pane).as_deref(), Some(made));
-        assert_eq!(rust(&PaneState::new("pcf")).as_deref(), Some("let mut technique = umbrage::parse(\"pcf\")?.make(&gpu)?;"));
+        assert_eq!(
+            rust(&PaneState::new("pcf")).as_deref(),
+            Some("let mut technique = umbrage::parse(\"pcf\")?.make(&gpu)?;")
+        );
         assert_eq!(rust(&PaneState::new("ray-traced")), None);
     }
 }

@@ -25,11 +25,12 @@ pub fn run(registry: &Registry, options: &Options) -> Result<(), String> {
         Ok(lab) => Ok(Box::new(lab) as Box<dyn eframe::App>),
         Err(error) => Err(error.into()),
     };
-    eframe::run_native("umbrage", native, Box::new(open)).map_err(|error| format!("the window can't be opened: {error}"))
+    eframe::run_native("umbrage", native, Box::new(open))
+        .map_err(|error| format!("the window can't be opened: {error}"))
 }
 
 /// A device with what techniques want, of the adapter that is named or the best one.
-fn setup(wanted: Option<String>) -> WgpuSetup {
+pub fn setup(wanted: Option<String>) -> WgpuSetup {
     let mut new = WgpuSetupCreateNew::without_display_handle();
     new.instance_descriptor.backends = wgpu::Backends::PRIMARY;
     new.native_adapter_selector = Some(Arc::new(move |adapters, surface| {

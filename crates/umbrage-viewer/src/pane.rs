@@ -146,7 +146,8 @@ impl Pane {
     pub fn draw(&mut self, shared: &Shared<'_>, stage: &mut Stage, wanted: &PaneState, always: bool) -> bool {
         let state = shared.state;
         let lights = state.shining().into_iter().filter_map(|n| Some((n, state.lights.get(n)?.clone()))).collect();
-        let shows_truth = wanted.technique == RAY_TRACED || wanted.picture == ERROR || slow::needs_truth(&wanted.picture);
+        let shows_truth =
+            wanted.technique == RAY_TRACED || wanted.picture == ERROR || slow::needs_truth(&wanted.picture);
         let drawn = Drawn {
             pane: wanted.clone(),
             camera: state.eye().clone(),
@@ -161,7 +162,10 @@ impl Pane {
         if self.drawn.as_ref() == Some(&drawn) && !always {
             return false;
         }
-        let is_new = self.drawn.as_ref().is_none_or(|old| old.pane != drawn.pane || old.lights != drawn.lights || old.camera != drawn.camera);
+        let is_new = self
+            .drawn
+            .as_ref()
+            .is_none_or(|old| old.pane != drawn.pane || old.lights != drawn.lights || old.camera != drawn.camera);
         if is_new {
             self.extremes = None;
         }
@@ -233,7 +237,8 @@ impl Pane {
             return Ok(false);
         }
         stage.renderer.exchange_lights(&mut made.lights).map_err(|e| e.to_string())?;
-        let taken = (0..numbers.len()).try_for_each(|pass| stage.renderer.set_settings(pass, &choice.settings).map(|_| ()));
+        let taken =
+            (0..numbers.len()).try_for_each(|pass| stage.renderer.set_settings(pass, &choice.settings).map(|_| ()));
         stage.renderer.exchange_lights(&mut made.lights).map_err(|e| e.to_string())?;
         taken.map_err(|e| e.to_string())?;
         Ok(true)
@@ -295,10 +300,17 @@ impl Pane {
                 shared.show.draw(&mut encoder, &visibility()?, Some(&truth), &self.view, way);
             }
             "depth" => {
-                let depth = wgpu::TextureViewDescriptor { aspect: wgpu::TextureAspect::DepthOnly, ..Default::default() };
+                let depth =
+                    wgpu::TextureViewDescriptor { aspect: wgpu::TextureAspect::DepthOnly, ..Default::default() };
                 let depth = renderer.depth_texture().create_view(&depth);
                 let high = self.extremes.map_or(1.0, |[_, high]| high);
-                shared.show.draw(&mut encoder, &depth, None, &self.view, Way::Numbers(drawn.range.unwrap_or([0.0, high])));
+                shared.show.draw(
+                    &mut encoder,
+                    &depth,
+                    None,
+                    &self.view,
+                    Way::Numbers(drawn.range.unwrap_or([0.0, high])),
+                );
                 self.look(gpu, renderer.depth_texture(), 0);
             }
             other if slow::is_slow(other) => {
@@ -375,6 +387,7 @@ impl Pane {
                 Ok(_) => {}
                 Err(error) => self.error = Some(error),
             }
+            changed |= self.slow.was_stale();
         }
         self.score(shared);
         if changed {

@@ -1,6 +1,6 @@
 //! Draws what a technique holds into the picture of a pane.
 
-use umbrage::fullscreen::{Fullscreen, UNIFORM, attachment, bind, layout, texture};
+use umbrage::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, attachment, bind};
 use umbrage::{Gpu, Shader};
 use umbrage_core::Image;
 
@@ -34,15 +34,17 @@ pub(crate) struct Show {
 
 impl Show {
     pub fn new(gpu: &Gpu) -> Self {
-        let unfiltered = texture(wgpu::TextureSampleType::Float { filterable: false });
-        let layout = layout(gpu, "show", wgpu::ShaderStages::FRAGMENT, &[unfiltered, unfiltered, UNIFORM]);
+        let unfiltered = fullscreen::texture(FLOATS);
+        let layout = fullscreen::layout(gpu, "show", wgpu::ShaderStages::FRAGMENT, &[unfiltered, unfiltered, UNIFORM]);
         let module = SHADER.module(gpu);
         let pipeline = |entry| {
             let target = FORMAT.into();
-            Fullscreen { label: "show", module: &module, entry, groups: &[&layout], target, constants: &[] }.pipeline(gpu)
+            Fullscreen { label: "show", module: &module, entry, groups: &[&layout], target, constants: &[] }
+                .pipeline(gpu)
         };
         let (numbers, colors, difference) = (pipeline("numbers"), pipeline("colors"), pipeline("difference"));
         let nothing = truth_texture(gpu, (1, 1)).create_view(&Default::default());
+        Self { gpu: gpu.clone(), layout, numbers, colors, difference, nothing }
     }
 
     /// Draws `source` into `pane`, as large as it fits without being stretched.

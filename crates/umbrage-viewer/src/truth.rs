@@ -203,7 +203,7 @@ mod worker {
 mod worker {
     use super::{Job, Traced, Wanted};
     use std::sync::Arc;
-    
+
     /// Of each frame.
     const SLICE: Duration = Duration::from_millis(12);
 

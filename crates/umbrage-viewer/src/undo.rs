@@ -65,7 +65,7 @@ mod tests {
     #[test]
     fn steps_lead_back_and_forward_until_something_else_is_done() {
         let mut undo = Undo::default();
-        [1.0, 2.0, 2.0, 3.0].map(|gain| undo.keep(&state(gain)));
+        [1.0, 2.0, 2.0, 3.0].into_iter().for_each(|gain| undo.keep(&state(gain)));
         assert_eq!(undo.back(), Some(state(2.0)));
         undo.keep(&state(2.0));
         assert_eq!(undo.forward(), Some(state(3.0)));

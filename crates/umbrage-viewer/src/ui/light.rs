@@ -133,16 +133,16 @@ fn shape(shape: &mut LightShape, radius: f64, ui: &mut egui::Ui) {
 }
 
 fn number(ui: &mut egui::Ui, name: &str, value: &mut f64, range: std::ops::RangeInclusive<f64>, unit: &str) {
-    ui.label(name);
-    ui.add(Slider::new(value, range).suffix(unit));
+    let label = ui.label(name).id;
+    ui.add(Slider::new(value, range).suffix(unit)).labelled_by(label);
     ui.end_row();
 }
 
 fn place(ui: &mut egui::Ui, name: &str, value: &mut DVec3, radius: f64) {
-    ui.label(name);
+    let label = ui.label(name).id;
     ui.horizontal(|ui| {
         for part in value.as_mut() {
-            ui.add(DragValue::new(part).speed(radius * 0.005).max_decimals(4).suffix(" m"));
+            ui.add(DragValue::new(part).speed(radius * 0.005).max_decimals(4).suffix(" m")).labelled_by(label);
         }
     });
     ui.end_row();
@@ -170,10 +170,10 @@ fn time_of_day(ui: &mut egui::Ui, direction: &mut DVec3) {
     let to = -*direction;
     let noon = NOON_DEG.to_radians();
     let mut hour = 12.0 + (-to.x).atan2((to.y / noon.sin()).max(1e-9)).to_degrees() / 15.0;
-    ui.label("time of day");
+    let label = ui.label("time of day").id;
     let text = |hour: f64| format!("{:02}:{:02}", hour as u32, (hour.fract() * 60.0) as u32);
     let slider = Slider::new(&mut hour, 6.1..=17.9).custom_formatter(move |hour, _| text(hour));
-    if ui.add(slider).changed() {
+    if ui.add(slider).labelled_by(label).changed() {
         let angle = ((hour - 12.0) * 15.0f64).to_radians();
         *direction = -DVec3::new(-angle.sin(), angle.cos() * noon.sin(), angle.cos() * noon.cos()).normalize();
     }

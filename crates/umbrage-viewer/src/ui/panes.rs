@@ -4,7 +4,7 @@ use super::bar;
 use crate::app::Lab;
 use crate::camera;
 use crate::state::Layout;
-use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Sense, Stroke, StrokeKind, Vec2};
+use eframe::egui::{self, Color32, FontId, Pos2, Rect, Sense, Stroke, StrokeKind, Vec2};
 use umbrage_core::glam::DVec2;
 
 /// How often blinking panes change, seconds.
@@ -36,7 +36,9 @@ pub(super) fn show(lab: &mut Lab, ui: &mut egui::Ui) {
     }
     if lab.state.layout == Layout::Split && cells.len() > 1 {
         let grip = Rect::from_x_y_ranges(split - GRIP..=split + GRIP, area.y_range());
-        let bar = ui.interact(grip, ui.id().with("split"), Sense::drag()).on_hover_cursor(egui::CursorIcon::ResizeHorizontal);
+        let bar = ui
+            .interact(grip, ui.scope_id().with("split"), Sense::drag())
+            .on_hover_cursor(egui::CursorIcon::ResizeHorizontal);
         if bar.dragged() {
             lab.state.split = (lab.state.split + bar.drag_delta().x / area.width().max(1.0)).clamp(0.0, 1.0);
         }
@@ -62,9 +64,9 @@ fn cells(area: Rect, count: usize, layout: Layout) -> Vec<Rect> {
 
 /// One pane: `cell` is its picture, `part` what of it is seen.
 fn pane(lab: &mut Lab, ui: &mut egui::Ui, number: usize, cell: Rect, part: Rect) {
-    let response = ui.interact(part, ui.id().with(("pane", number)), Sense::click_and_drag());
+    let response = ui.interact(part, ui.scope_id().with(("pane", number)), Sense::click_and_drag());
     let label = format!("pane {number}");
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Image, true, &label));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
     let painter = ui.painter_at(part);
     let wanted = lab.state.panes[number].clone();
     match lab.panes.get(number) {

@@ -15,7 +15,7 @@ pub(super) fn show(lab: &mut Lab, ui: &mut egui::Ui) {
     let pane = lab.state.panes[lab.face.active].clone();
     ui.horizontal(|ui| {
         ui.heading(pane.id());
-        ui.menu_button("▾", |ui| bar::technique_menu(lab, ui)).response.on_hover_text("Another technique");
+        ui.menu_button("Change…", |ui| bar::technique_menu(lab, ui)).response.on_hover_text("Another technique");
     });
     if pane.technique == RAY_TRACED {
         ui.label(RAY_TRACED_SUMMARY);
@@ -65,42 +65,43 @@ fn row(ui: &mut egui::Ui, registry: &Registry, param: &Param, settings: &Setting
     let help = format!("{} Range: {}{unit}.{live}", param.help, param.kind.range_of(registry));
     let is_changed = value != param.kind.default();
     let name = egui::RichText::new(param.name);
-    ui.label(if is_changed { name.strong() } else { name }).on_hover_text(&help);
+    let label = ui.label(if is_changed { name.strong() } else { name }).on_hover_text(&help).id;
     ui.horizontal(|ui| {
-        let new = widget(ui, registry, param, value, &help);
-        let reset = ui.add_enabled(is_changed, egui::Button::new("⟲").small());
+        let new = widget(ui, registry, param, value, label);
+        let reset = ui.add_enabled(is_changed, egui::Button::new("reset").small());
         let reset = reset.on_hover_text(format!("Back to {}", param.kind.default()));
         if reset.clicked() { Some(param.kind.default().to_string()) } else { new }
     })
     .inner
 }
 
-fn widget(ui: &mut egui::Ui, registry: &Registry, param: &Param, value: Value, help: &str) -> Option<String> {
+fn widget(ui: &mut egui::Ui, registry: &Registry, param: &Param, value: Value, label: egui::Id) -> Option<String> {
     match (param.kind, value) {
         (ParamKind::Int { min, max, .. }, Value::Int(mut number)) => {
             let is_wide = max as f64 / min.max(1) as f64 > WIDE;
             let slider = Slider::new(&mut number, min..=max).logarithmic(is_wide);
-            ui.add(named(slider, param)).on_hover_text(help).changed().then(|| number.to_string())
+            ui.add(named(slider, param)).labelled_by(label).changed().then(|| number.to_string())
         }
         (ParamKind::Float { min, max, .. }, Value::Float(mut number)) => {
             let is_wide = max / min.max(max * 1e-4) > WIDE;
             let slider = Slider::new(&mut number, min..=max).logarithmic(is_wide).smallest_positive(max * 1e-5);
-            ui.add(named(slider, param)).on_hover_text(help).changed().then(|| number.to_string())
+            ui.add(named(slider, param)).labelled_by(label).changed().then(|| number.to_string())
         }
         (ParamKind::Switch { .. }, Value::Switch(mut on)) => {
-            let changed = ui.checkbox(&mut on, "").on_hover_text(help).changed();
+            let changed = ui.checkbox(&mut on, "").labelled_by(label).changed();
             changed.then(|| Value::Switch(on).to_string())
         }
         (kind, value) => {
             let now = value.to_string();
             let mut new = None;
-            egui::ComboBox::from_id_salt(param.name).selected_text(&now).show_ui(ui, |ui| {
+            let list = egui::ComboBox::from_id_salt(param.name).selected_text(&now).show_ui(ui, |ui| {
                 for word in kind.words(registry) {
                     if ui.selectable_label(word == now, word).clicked() {
                         new = Some(word.to_string());
                     }
                 }
             });
+            list.response.labelled_by(label);
             new
         }
     }
@@ -114,8 +115,9 @@ fn named<'a>(slider: Slider<'a>, param: &Param) -> Slider<'a> {
 fn light_samples(ui: &mut egui::Ui, samples: &mut Option<u32>) {
     const HELP: &str = "Averages the shadows of so many points of the light, each found anew.";
     let mut count = samples.unwrap_or(1);
-    ui.label(LIGHT_SAMPLES).on_hover_text(HELP);
-    if ui.add(Slider::new(&mut count, 1..=MOST_LIGHT_SAMPLES).logarithmic(true)).on_hover_text(HELP).changed() {
+    let label = ui.label(LIGHT_SAMPLES).on_hover_text(HELP).id;
+    let slider = Slider::new(&mut count, 1..=MOST_LIGHT_SAMPLES).logarithmic(true);
+    if ui.add(slider).labelled_by(label).changed() {
         *samples = (count > 1).then_some(count);
     }
 }

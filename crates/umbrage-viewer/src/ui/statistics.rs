@@ -119,7 +119,11 @@ fn errors(lab: &Lab, ui: &mut egui::Ui) {
 fn range(lab: &mut Lab, ui: &mut egui::Ui) {
     let found = lab.panes.get(lab.face.active).and_then(|pane| pane.extremes);
     let mut is_set = lab.state.range.is_some();
-    if ui.checkbox(&mut is_set, "stretch").on_hover_text("From which number to which views show black to white").changed() {
+    if ui
+        .checkbox(&mut is_set, "stretch")
+        .on_hover_text("From which number to which views show black to white")
+        .changed()
+    {
         lab.state.range = is_set.then(|| found.unwrap_or([0.0, 1.0]));
     }
     if let Some([low, high]) = &mut lab.state.range {

@@ -1,0 +1,4 @@
+//! The laboratory without a window. Needs a graphics adapter.
+
+mod common;
+mod first;
