@@ -5,6 +5,7 @@ use super::light::Lights;
 use super::read_camera;
 use super::reader::{Source, Table};
 use crate::Error;
+use crate::files::Files;
 use glam::{DVec2, DVec3, EulerRot, Vec3};
 use std::fmt::Write;
 use std::path::Path;
@@ -47,7 +48,7 @@ fn read_light(scene: &mut Scene, table: &Table<'_>) -> Result<(), Error> {
     if index.fract() != 0.0 || !(0.0..=count as f64).contains(&index) {
         return Err(number.error(format!("is {index}; the scene has {count} lights, counted from 0")));
     }
-    let mut light = Lights::new(Path::new("")).read_with(scene, table, &["number"])?;
+    let mut light = Lights::new(Files::OnDisk, Path::new("")).read_with(scene, table, &["number"])?;
     let index = index as usize;
     match scene.lights.get_mut(index) {
         Some(old) => {
