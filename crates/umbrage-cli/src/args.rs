@@ -22,6 +22,25 @@ impl Adapter {
     }
 }
 
+/// What of a scene is not as it is stored.
+#[derive(Args)]
+pub struct Changed {
+    /// Another camera and other lights than the scene's, as the laboratory copies them: tables
+    /// `camera = { … }` and `light = [{ number = 0, … }]` in the words of the scene format
+    #[arg(long, value_name = "TOML")]
+    change: Option<String>,
+    /// Moves every animation on by so many seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, allow_negative_numbers = true)]
+    time: f64,
+}
+
+impl Changed {
+    /// Opens a scene with what is changed in it.
+    pub fn open(&self, asked: &str) -> Result<Source> {
+        Ok(Source::open(asked)?.changed(self.change.as_deref(), self.time)?)
+    }
+}
+
 /// What several techniques are run on.
 #[derive(Args)]
 pub struct What {
@@ -40,6 +59,8 @@ pub struct What {
     /// Only this light of each scene, from 0 [default: all]
     #[arg(long, value_name = "N")]
     light: Option<usize>,
+    #[command(flatten)]
+    changed: Changed,
 }
 
 impl What {
@@ -50,9 +71,17 @@ impl What {
         Ok(choices.into_iter().map(|c| c.or_light_samples(self.light_samples)).collect())
     }
 
-    /// The scenes and lights.
+    /// The scenes, each with the lights to work on; what the loader has to say goes to the standard
+    /// error.
     pub fn scenes(&self) -> Result<Vec<(Source, Vec<usize>)>> {
-        scenes(&self.scenes, self.light)
+        let mut scenes = Vec::new();
+        for name in &self.scenes {
+            let source = self.changed.open(name)?;
+            let lights = source.lights(self.light)?;
+            source.notes.iter().for_each(|note| say::note(&format!("{name}: {note}")));
+            scenes.push((source, lights));
+        }
+        Ok(scenes)
     }
 }
 
@@ -103,19 +132,6 @@ pub fn triple(text: &str) -> Result<(String, String, String), String> {
     let (name, value) = pair(text).map_err(|_| FORM)?;
     let (technique, name) = name.split_once('.').ok_or(FORM)?;
     Ok((technique.into(), name.into(), value))
-}
-
-/// Opens scenes, each with the lights to work on; what the loader has to say goes to the standard
-/// error.
-pub fn scenes(asked: &[String], light: Option<usize>) -> Result<Vec<(Source, Vec<usize>)>> {
-    let mut scenes = Vec::new();
-    for name in asked {
-        let source = Source::open(name)?;
-        let lights = source.lights(light)?;
-        source.notes.iter().for_each(|note| say::note(&format!("{name}: {note}")));
-        scenes.push((source, lights));
-    }
-    Ok(scenes)
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;
 use umbrage::{Registry, nearest};
-use umbrage_report::{Aov, Choice, LIGHT_SAMPLES, Method, Picture, RAY_TRACED, RayTraced, Shot, Source, check_file};
+use umbrage_report::{Aov, Choice, LIGHT_SAMPLES, Method, Picture, RAY_TRACED, RayTraced, Shot, check_file};
 
 /// Renders one picture of a scene with one technique
 #[derive(Args)]
@@ -42,13 +42,8 @@ pub struct Render {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = args::size)]
     size: Size,
-    /// Another camera and other lights than the scene's, as the laboratory copies them: tables
-    /// `camera = { … }` and `light = [{ number = 0, … }]` in the words of the scene format
-    #[arg(long, value_name = "TOML")]
-    change: Option<String>,
-    /// Moves every animation on by so many seconds
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, allow_negative_numbers = true)]
-    time: f64,
+    #[command(flatten)]
+    changed: args::Changed,
     /// Rays for each pixel of `ray-traced`; 1 is the perfect hard shadow [default: 1024]
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
@@ -81,7 +76,7 @@ impl Render {
                 "--overlay is a way of shading: it goes with `--aov color` and a technique that knows it, such as `volume`"
             );
         }
-        let source = Source::open(&self.scene)?.changed(self.change.as_deref(), self.time)?;
+        let source = self.changed.open(&self.scene)?;
         let lights = source.lights(self.light)?;
         self.check_aov(&aov)?;
         let of_one_light = matches!(aov, Aov::Visibility | Aov::Scored | Aov::Inside(_));

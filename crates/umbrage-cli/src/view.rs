@@ -32,8 +32,13 @@ pub struct View {
 impl View {
     /// Opens the window and returns when it is closed.
     pub fn run(self, context: &Context<'_>) -> Result<()> {
-        let options =
-            Options { scene: self.scene, techniques: self.technique, state: self.state, adapter: self.adapter };
+        let options = Options {
+            scene: self.scene,
+            techniques: self.technique,
+            state: self.state,
+            adapter: self.adapter,
+            ..Options::default()
+        };
         if let Err(error) = umbrage_viewer::run(context.registry, &options) {
             bail!("{error}");
         }

@@ -12,10 +12,13 @@ use crate::ui::Face;
 use crate::undo::Undo;
 use eframe::egui;
 use eframe::egui_wgpu::RenderState;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use umbrage::{Gpu, Owner, Registry};
 use umbrage_report::{RAY_TRACED, Source};
 use web_time::{Duration, Instant};
+
+/// How names of files end that are scenes.
+const SCENE_FILES: [&str; 4] = [".toml", ".gltf", ".glb", ".obj"];
 
 /// What a laboratory starts with.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +31,8 @@ pub struct Options {
     pub state: Option<String>,
     /// The graphics adapter: a part of its name, or `software`.
     pub adapter: Option<String>,
+    /// Where snapshots are written; the working directory where none is named.
+    pub folder: Option<std::path::PathBuf>,
 }
 
 /// The laboratory without a window.
@@ -49,6 +54,16 @@ pub struct Lab {
     /// What is not part of the state: what is chosen, what is open.
     pub(crate) face: Face,
     last_frame: Instant,
+    /// What the driver has said that nobody asked for.
+    trouble: Arc<Mutex<Option<String>>>,
+    is_lost: bool,
+    #[cfg(target_family = "wasm")]
+    dropped: crate::later::Newest<Result<(String, umbrage_io::Bytes), String>>,
+    #[cfg(not(target_family = "wasm"))]
+    keeping: Option<crate::keep::Keeping>,
+    /// Where snapshots go.
+    #[cfg(not(target_family = "wasm"))]
+    folder: std::path::PathBuf,
 }
 
 impl Lab {
@@ -59,6 +74,11 @@ impl Lab {
     pub fn new(context: &eframe::CreationContext<'_>, registry: &Registry, options: &Options) -> Result<Self, String> {
         let paint = context.wgpu_render_state.clone().ok_or("there is no graphics device to draw with")?;
         let gpu = Gpu::new(paint.device.clone(), paint.queue.clone());
+        let trouble = Arc::new(Mutex::new(None));
+        let reported = trouble.clone();
+        paint.device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            reported.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error.to_string());
+        }));
         let mut lab = Self {
             show: Show::new(&gpu),
             gpu,
@@ -75,6 +95,14 @@ impl Lab {
             pace: Pace::default(),
             face: Face::new(&context.egui_ctx),
             last_frame: Instant::now(),
+            trouble,
+            is_lost: false,
+            #[cfg(target_family = "wasm")]
+            dropped: Default::default(),
+            #[cfg(not(target_family = "wasm"))]
+            keeping: None,
+            #[cfg(not(target_family = "wasm"))]
+            folder: options.folder.clone().unwrap_or_default(),
         };
         if let Some(link) = &options.state {
             lab.follow(link)?;
@@ -124,18 +152,76 @@ impl Lab {
         let now = Instant::now();
         let passed = now.duration_since(self.last_frame).min(Duration::from_millis(250));
         self.last_frame = now;
-        if let Err(error) = self.gpu.check() {
-            self.face.say(error.to_string());
-        }
+        self.check(ui.ctx());
         self.poll();
         self.take();
         crate::ui::show(self, ui, passed.as_secs_f64());
         self.draw();
         self.want_truth();
+        #[cfg(not(target_family = "wasm"))]
+        self.keep();
         if !ui.ctx().input(|i| i.pointer.any_down()) && self.stage.is_some() {
             self.undo.keep(&self.state);
         }
         self.last_to_do(ui.ctx());
+    }
+
+    /// Says what the driver reports, and opens what was dropped on the window.
+    fn check(&mut self, context: &egui::Context) {
+        if let Err(error) = self.gpu.check() {
+            self.is_lost |= matches!(error, umbrage::Error::DeviceLost(_));
+            self.face.say(error.to_string());
+        }
+        if let Some(error) = self.trouble.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            self.face.say(format!("the graphics driver reports: {error}"));
+        }
+        let dropped = context.input_mut(|i| std::mem::take(&mut i.raw.dropped_files));
+        if !dropped.is_empty() {
+            self.open_dropped(dropped);
+        }
+        #[cfg(target_family = "wasm")]
+        self.take_dropped();
+    }
+
+    /// Opens the scene among files that were dropped together.
+    fn open_dropped(&mut self, files: Vec<egui::DroppedFileHandle>) {
+        let name = |file: &egui::DroppedFileHandle| file.path().display().to_string();
+        let is_scene = |name: &String| SCENE_FILES.iter().any(|end| name.to_lowercase().ends_with(end));
+        let names: Vec<String> = files.iter().map(name).collect();
+        let Some(scene) = names.iter().find(|name| is_scene(name)) else {
+            let known = SCENE_FILES.join(", ");
+            self.face.say(format!("{}: not a scene; scenes are files of {known}", names.join(", ")));
+            return;
+        };
+        #[cfg(not(target_family = "wasm"))]
+        self.open(scene);
+        #[cfg(target_family = "wasm")]
+        {
+            let scene = scene.clone();
+            let read = async move {
+                let mut bytes = umbrage_io::Bytes::new();
+                for (name, file) in names.into_iter().zip(files) {
+                    bytes.insert(name, file.bytes_async().await?);
+                }
+                Ok((scene, bytes))
+            };
+            // What is there at once comes with the next frame, too.
+            let _ = self.dropped.ask(read);
+        }
+    }
+
+    /// Opens what was dropped, now that it is read.
+    #[cfg(target_family = "wasm")]
+    fn take_dropped(&mut self) {
+        match self.dropped.take() {
+            Some(Ok((name, bytes))) => {
+                let asked = name.clone();
+                let open = move || Source::open_bytes(&name, &bytes).map_err(|e| e.to_string());
+                self.opening = Some(Opening::start(&asked, open));
+            }
+            Some(Err(error)) => self.face.say(error),
+            None => {}
+        }
     }
 
     /// Has the device say what is done; browsers do so by themselves.
@@ -271,13 +357,53 @@ impl Lab {
         self.truth.want(Some(Wanted { tracer, camera, size, lights, textures: stage.textures.clone() }));
     }
 
+    /// Starts what was asked to be kept, and says what came of it.
+    #[cfg(not(target_family = "wasm"))]
+    fn keep(&mut self) {
+        if let Some(kept) = self.keeping.as_ref().and_then(crate::keep::Keeping::take) {
+            self.keeping = None;
+            self.face.say(kept.map_or_else(|error| error, |path| format!("written: {}", path.display())));
+        }
+        let Some(stage) = self.stage.as_ref().filter(|_| self.keeping.is_none()) else { return };
+        if let Some(kind) = self.face.keep.take() {
+            let what = crate::keep::What {
+                gpu: self.gpu.clone(),
+                registry: self.registry.clone(),
+                source: stage.source.clone(),
+                state: self.state.clone(),
+                size: stage.renderer.size(),
+                samples: self.truth_samples().max(1),
+                folder: self.folder.clone(),
+            };
+            self.keeping = Some(crate::keep::Keeping::start(kind, what, self.face.active));
+        }
+    }
+
     /// Asks for the next frame where something goes on by itself.
     fn last_to_do(&self, context: &egui::Context) {
         if self.face.is_moving() || self.face.draws_always || self.panes.iter().any(Pane::is_waiting) {
             context.request_repaint();
-        } else if self.opening.is_some() || self.truth.is_under_way() {
+        } else if self.opening.is_some() || self.truth.is_under_way() || self.is_keeping() {
             context.request_repaint_after(Duration::from_millis(60));
         }
+    }
+
+    /// The device is gone: a window has to be opened anew.
+    pub fn is_lost(&self) -> bool {
+        self.is_lost
+    }
+
+    /// All that is seen, as [`Options::state`] takes it; `None` while no scene is open.
+    pub fn permalink(&self) -> Option<String> {
+        Some(link::write(&self.state, &self.stage.as_ref()?.source.scene))
+    }
+
+    /// A file is being written.
+    fn is_keeping(&self) -> bool {
+        #[cfg(not(target_family = "wasm"))]
+        return self.keeping.is_some();
+        #[cfg(target_family = "wasm")]
+        false
     }
 
     /// A scene is open, and the panes show it.

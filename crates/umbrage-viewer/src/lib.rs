@@ -7,6 +7,8 @@
 
 mod app;
 mod camera;
+#[cfg(not(target_family = "wasm"))]
+mod keep;
 mod later;
 mod link;
 #[cfg(not(target_family = "wasm"))]

@@ -1,11 +1,11 @@
 //! Permalinks, and states as commands and as Rust.
 
-use crate::state::{Layout, PaneState, State};
+use crate::state::{COMPARED, Layout, PaneState, State};
 use base64::Engine as _;
 use base64::prelude::BASE64_URL_SAFE_NO_PAD;
 use serde::{Deserialize, Serialize};
 use umbrage_core::{Camera, Scene};
-use umbrage_report::RAY_TRACED;
+use umbrage_report::{LIGHT_SAMPLES, RAY_TRACED};
 
 /// The version that this program writes.
 const VERSION: u32 = 1;
@@ -146,23 +146,22 @@ fn camera_of(text: &str) -> Result<Option<Camera>, String> {
     Ok(Some(scene.camera))
 }
 
-/// The command that takes the picture of a pane, `size` pixels across and down.
+/// The command that takes the picture of a pane, `size` pixels across and down; for pictures of a
+/// comparison the command that compares.
 pub fn command(state: &State, pane: &PaneState, scene: &Scene, size: (u32, u32), samples: Option<u32>) -> String {
-    let mut words = vec!["umbrage render".to_string(), quoted(&state.scene)];
-    let mut parts = pane.technique.split(':');
-    words.push(format!("--technique {}", parts.next().unwrap_or_default()));
-    for part in parts {
-        words.push(match part.split_once('=') {
-            Some(("light-samples", count)) => format!("--light-samples {count}"),
-            _ => format!("--set {}", quoted(part)),
-        });
+    let is_compared = COMPARED.contains(&pane.picture.as_str());
+    let mut words =
+        vec![if is_compared { "umbrage compare" } else { "umbrage render" }.to_string(), quoted(&state.scene)];
+    if is_compared {
+        words.push(format!("--techniques {}", quoted(&pane.technique)));
+    } else {
+        words.extend(technique(pane));
     }
-    if let (RAY_TRACED, Some(samples)) = (pane.id(), samples) {
+    if let (true, Some(samples)) = (pane.id() == RAY_TRACED || is_compared, samples) {
         words.push(format!("--samples {samples}"));
     }
     words.extend(state.light.map(|light| format!("--light {light}")));
     words.push(format!("--size {}x{}", size.0, size.1));
-    words.push(format!("--aov {}", pane.picture));
     let change = change(state, scene);
     if !change.is_empty() {
         words.push(format!("--change {}", quoted(&change)));
@@ -170,8 +169,22 @@ pub fn command(state: &State, pane: &PaneState, scene: &Scene, size: (u32, u32),
     if state.time_s != 0.0 {
         words.push(format!("--time {:?}", state.time_s));
     }
-    words.push(format!("-o {}", quoted(&format!("{}.png", name(pane)))));
+    words.push(match is_compared {
+        true => "-o out".into(),
+        false => format!("--aov {} -o {}", pane.picture, quoted(&format!("{}.png", name(pane)))),
+    });
     words.join(" ")
+}
+
+/// The options of `umbrage render` that choose the technique of a pane.
+fn technique(pane: &PaneState) -> Vec<String> {
+    let mut parts = pane.technique.split(':');
+    let id = parts.next().unwrap_or_default();
+    let option = |part: &str| match part.split_once('=') {
+        Some((LIGHT_SAMPLES, count)) => format!("--light-samples {count}"),
+        _ => format!("--set {}", quoted(part)),
+    };
+    std::iter::once(format!("--technique {id}")).chain(parts.map(option)).collect()
 }
 
 /// A name for a file of what a pane shows.
@@ -260,9 +273,13 @@ mod tests {
         assert_eq!(
             command(&state, &pane, &scene(), (64, 48), None),
             "umbrage render 'a room.glb' --technique shadow-map --set size=512 --light-samples 4 --light 0 --size 64x48 \
-             --aov visibility --change 'camera = { eye = [0.5, 1.0, 5.0], target = [0.0, 0.0, 0.0], up = [0.0, 1.0, 0.0], \
-             fov_y = 45.0, near = 0.05 }' --time 0.25 -o shadow-map-visibility.png"
+             --change 'camera = { eye = [0.5, 1.0, 5.0], target = [0.0, 0.0, 0.0], up = [0.0, 1.0, 0.0], \
+             fov_y = 45.0, near = 0.05 }' --time 0.25 --aov visibility -o shadow-map-visibility.png"
         );
+        let error = PaneState { picture: "error".into(), ..PaneState::new("pcf:kernel=7") };
+        let expected =
+            "umbrage compare 'a room.glb' --techniques pcf:kernel=7 --samples 64 --light 0 --size 64x48 --change";
+        assert!(command(&state, &error, &scene(), (64, 48), Some(64)).starts_with(expected));
         assert_eq!(quoted("it's"), r"'it'\''s'");
         let made = "let mut technique = umbrage::light_samples(&gpu, &umbrage::parse(\"shadow-map:size=512\")?, 4)?;";
         assert_eq!(rust(&pane).as_deref(), Some(made));

@@ -1,7 +1,10 @@
 //! The window.
 
 use crate::{Lab, Options};
+use eframe::egui;
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use std::cell::RefCell;
+use std::rc::Rc;
 use std::sync::Arc;
 use umbrage::{Gpu, Registry};
 
@@ -13,8 +16,23 @@ pub fn run(registry: &Registry, options: &Options) -> Result<(), String> {
     if let Some(link) = &options.state {
         crate::link::read(link)?;
     }
+    let mut options = options.clone();
+    for _ in 0..MOST_LOSSES {
+        let lost = Rc::new(RefCell::new(None));
+        open(registry, &options, lost.clone())?;
+        // The device was lost: the same again in a new window.
+        let Some(link) = lost.take() else { return Ok(()) };
+        options.state = Some(link);
+    }
+    Err(format!("the graphics device was lost {MOST_LOSSES} times; update its driver, or choose another --adapter"))
+}
+
+/// Devices that may be lost, one after the other.
+const MOST_LOSSES: u32 = 4;
+
+fn open(registry: &Registry, options: &Options, lost: Rc<RefCell<Option<String>>>) -> Result<(), String> {
     let native = eframe::NativeOptions {
-        viewport: eframe::egui::ViewportBuilder::default().with_title("umbrage").with_inner_size([1280.0, 800.0]),
+        viewport: egui::ViewportBuilder::default().with_title("umbrage").with_inner_size([1280.0, 800.0]),
         renderer: eframe::Renderer::Wgpu,
         wgpu_options: WgpuConfiguration { wgpu_setup: setup(options.adapter.clone()), ..Default::default() },
         run_and_return: true,
@@ -22,11 +40,28 @@ pub fn run(registry: &Registry, options: &Options) -> Result<(), String> {
     };
     let (registry, options) = (registry.clone(), options.clone());
     let open = move |context: &eframe::CreationContext<'_>| match Lab::new(context, &registry, &options) {
-        Ok(lab) => Ok(Box::new(lab) as Box<dyn eframe::App>),
+        Ok(lab) => Ok(Box::new(Window { lab, lost }) as Box<dyn eframe::App>),
         Err(error) => Err(error.into()),
     };
     eframe::run_native("umbrage", native, Box::new(open))
         .map_err(|error| format!("the window can't be opened: {error}"))
+}
+
+/// A laboratory in a window that is opened anew where its device is lost.
+struct Window {
+    lab: Lab,
+    /// What was seen then.
+    lost: Rc<RefCell<Option<String>>>,
+}
+
+impl eframe::App for Window {
+    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        self.lab.frame(ui);
+        if self.lab.is_lost() {
+            self.lost.replace(self.lab.permalink());
+            ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
+        }
+    }
 }
 
 /// A device with what techniques want, of the adapter that is named or the best one.

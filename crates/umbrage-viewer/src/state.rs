@@ -66,6 +66,8 @@ pub(crate) const COLOR: &str = "color";
 pub(crate) const VISIBILITY: &str = "visibility";
 /// Visibility less that of the truth.
 pub(crate) const ERROR: &str = "error";
+/// Pictures that a comparison makes, not `umbrage render`.
+pub(crate) const COMPARED: [&str; 3] = [ERROR, "flip", "texel-size"];
 /// Pictures that any technique has, with what they show.
 pub(crate) const PICTURES: [(&str, &str); 7] = [
     (COLOR, "The shaded scene"),

@@ -1,6 +1,5 @@
 //! The bar at the top: menus, and the search for everything.
 
-use super::Snapshot;
 use crate::app::Lab;
 use crate::state::{COLOR, Layout, PICTURES, PaneState};
 use crate::{MOST_PANES, link};
@@ -222,9 +221,15 @@ fn keep_menu(lab: &mut Lab, ui: &mut egui::Ui) {
         copied = Some(line);
     }
     ui.separator();
-    for (what, name) in [(Snapshot::Png, "Snapshot as PNG"), (Snapshot::Exr, "Snapshot as EXR")] {
-        if ui.button(name).clicked() {
-            lab.face.snapshot = Some(what);
+    #[cfg(not(target_family = "wasm"))]
+    for (kind, name, about) in [
+        (crate::keep::Kind::Png, "Snapshot as PNG", "The file that the copied command writes"),
+        (crate::keep::Kind::Exr, "Snapshot as EXR", "The numbers as they are"),
+        (crate::keep::Kind::Bundle, "Bundle for a bug report", "Permalink, commands, adapter, scene file and pictures"),
+    ] {
+        if ui.button(name).on_hover_text(about).clicked() {
+            lab.face.keep = Some(kind);
+            ui.close();
         }
     }
     if let Some(text) = copied {

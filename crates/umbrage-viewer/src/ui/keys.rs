@@ -30,8 +30,8 @@ const HELP: [(&str, &str); 21] = [
     ("L", "next light; after the last all of them"),
     ("O", "freezes the camera and looks on from outside"),
     ("I", "text on the pictures"),
-    ("S", "with Ctrl: snapshot"),
     ("C", "copies the camera as the scene format has it"),
+    ("Ctrl+S", "snapshot"),
     ("Ctrl+Z, Ctrl+Y, Ctrl+F", "undo, redo, find"),
     ("Esc", "closes what is open, then the window"),
 ];
@@ -59,7 +59,8 @@ const COMMANDS: &[(Modifiers, Key, Act)] = &[
     (Modifiers::COMMAND, Key::Z, |lab, _| bar::undo(lab)),
     (Modifiers::COMMAND, Key::Y, |lab, _| bar::redo(lab)),
     (Modifiers::COMMAND, Key::F, |lab, _| _ = lab.face.search.get_or_insert_default()),
-    (Modifiers::COMMAND, Key::S, |lab, _| lab.face.snapshot = Some(super::Snapshot::Png)),
+    #[cfg(not(target_family = "wasm"))]
+    (Modifiers::COMMAND, Key::S, |lab, _| lab.face.keep = Some(crate::keep::Kind::Png)),
     (Modifiers::SHIFT, Key::Space, |lab, _| next_technique(lab, true)),
     (Modifiers::NONE, Key::Space, |lab, _| next_technique(lab, false)),
     (Modifiers::NONE, Key::Enter, |lab, _| lab.face.turns = !lab.face.turns),

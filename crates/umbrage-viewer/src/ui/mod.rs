@@ -37,15 +37,9 @@ pub(crate) struct Face {
     pub cursor: Option<(usize, [f32; 2])>,
     /// Seconds since the laboratory was opened, for what blinks.
     pub clock_s: f64,
-    /// A snapshot was asked for.
-    pub snapshot: Option<Snapshot>,
-}
-
-/// What a snapshot is to be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Snapshot {
-    Png,
-    Exr,
+    /// A file was asked for.
+    #[cfg(not(target_family = "wasm"))]
+    pub keep: Option<crate::keep::Kind>,
 }
 
 impl Face {
@@ -63,7 +57,8 @@ impl Face {
             cell: None,
             cursor: None,
             clock_s: 0.0,
-            snapshot: None,
+            #[cfg(not(target_family = "wasm"))]
+            keep: None,
         }
     }
 
