@@ -388,6 +388,23 @@ impl Lab {
         }
     }
 
+    /// Messages that are shown.
+    pub fn messages(&self) -> Vec<String> {
+        self.face.all_messages()
+    }
+
+    /// Shows another picture in a pane.
+    pub fn set_picture(&mut self, pane: usize, picture: &str) {
+        if let Some(pane) = self.state.panes.get_mut(pane) {
+            pane.picture = picture.into();
+        }
+    }
+
+    /// Pixels of the window for each pixel of pictures; `None`: as the adapter can.
+    pub fn set_divisor(&mut self, divisor: Option<u32>) {
+        self.state.divisor = divisor.map(|divisor| divisor.clamp(1, crate::LARGEST_DIVISOR));
+    }
+
     /// The device is gone: a window has to be opened anew.
     pub fn is_lost(&self) -> bool {
         self.is_lost

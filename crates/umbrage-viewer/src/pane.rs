@@ -62,6 +62,8 @@ pub(crate) struct Pane {
     /// Of the main light, of the frame that is shown or one shortly before.
     pub visibility: Option<Arc<Image<f32>>>,
     reading: Newest<Result<Image<f32>, Error>>,
+    /// A frame was not read, since one before it still was.
+    is_unread: bool,
     /// Against the truth as far as it is known.
     pub scores: Option<Scores>,
     scored: Option<(u64, *const Image<f32>)>,
@@ -109,6 +111,7 @@ impl Pane {
             prepare_ms: 0.0,
             visibility: None,
             reading: Newest::default(),
+            is_unread: false,
             scores: None,
             scored: None,
             extremes: None,
@@ -361,7 +364,8 @@ impl Pane {
 
     /// Asks for the visibility, unless it is under way.
     fn read(&mut self, shared: &Shared<'_>, stage: &Stage, main: usize) {
-        if self.reading.is_under_way() {
+        self.is_unread = self.reading.is_under_way();
+        if self.is_unread {
             return;
         }
         if let Ok(texture) = stage.renderer.visibility_texture(main) {
@@ -373,10 +377,11 @@ impl Pane {
 
     /// Takes over what has come since the last frame; true where it has to be drawn again.
     pub fn take(&mut self, shared: &Shared<'_>) -> bool {
-        if let Some(Ok(found)) = self.reading.take() {
-            self.visibility = Some(Arc::new(found));
-        }
         let mut changed = false;
+        if let Some(found) = self.reading.take() {
+            self.visibility = found.ok().map(Arc::new);
+            changed = std::mem::take(&mut self.is_unread);
+        }
         if let Some(Ok(found)) = self.looking.take() {
             self.extremes = Some(extremes(&found));
             changed = true;

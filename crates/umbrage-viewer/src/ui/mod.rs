@@ -77,6 +77,11 @@ impl Face {
         self.messages.iter().map(|(message, _)| message.as_str())
     }
 
+    /// The same, to be looked at.
+    pub fn all_messages(&self) -> Vec<String> {
+        self.messages.iter().map(|(message, _)| message.clone()).collect()
+    }
+
     /// Something moves by itself.
     pub fn is_moving(&self) -> bool {
         self.turns
