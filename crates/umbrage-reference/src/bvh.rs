@@ -70,9 +70,9 @@ impl Bvh {
             && opacity.stops(triangle, &seen, ray.direction)
     }
 
-    /// The first triangle that stops the ray, and its t. Of triangles at the same place it is the
-    /// first of the scene.
-    pub fn first(&self, ray: &Ray, opacity: &impl Opacity) -> Option<(&Triangle, f64)> {
+    /// The first triangle that is not of number `own` and stops the ray, and its t. Of triangles at
+    /// the same place it is the first of the scene.
+    pub fn first(&self, ray: &Ray, own: Option<u32>, opacity: &impl Opacity) -> Option<(&Triangle, f64)> {
         let (box_ray, start) = self.box_ray(ray)?;
         let length = ray.direction.length();
         let mut best: Option<(&Triangle, f64)> = None;
@@ -80,7 +80,7 @@ impl Bvh {
         self.tree.ray_traverse(box_ray, &mut hit, |_, i| {
             let triangle = &self.triangles[i];
             let seen = triangle.seen_from(ray.origin);
-            if !seen.is_hit(ray.direction, ray.t_min, ray.t_max) {
+            if !seen.is_hit(ray.direction, ray.t_min, ray.t_max) || Some(triangle.id) == own {
                 return f32::INFINITY;
             }
             let t = seen.distance(ray.direction);
@@ -234,7 +234,7 @@ mod tests {
             let bvh = Bvh::new(triangles.clone());
             prop_assert_eq!(bvh.is_blocked(&ray, None, &Opaque), triangles.iter().any(hits));
             let nearest = triangles.iter().filter(|t| hits(t)).map(|t| t.seen_from(origin).distance(ray.direction));
-            prop_assert_eq!(bvh.first(&ray, &Opaque).map(|(_, t)| t), nearest.min_by(f64::total_cmp));
+            prop_assert_eq!(bvh.first(&ray, None, &Opaque).map(|(_, t)| t), nearest.min_by(f64::total_cmp));
         }
     }
 }

@@ -7,6 +7,13 @@
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
+/// How wide, metres, the penumbra of an edge is where the light's rays meet the surface at a right
+/// angle: of a light of this radius at `distance`, past a blocker `gap` metres from the surface. Of a
+/// sun, whose `distance` is infinite, the radius is the tangent of half its angle.
+pub fn penumbra_width(radius: f64, distance: f64, gap: f64) -> f64 {
+    if distance.is_infinite() { 2.0 * radius * gap } else { 2.0 * radius * gap / (distance - gap) }
+}
+
 /// The share of a disc's area on one side of a straight line, where (q − centre) · normal >
 /// `distance` in units of the radius: the circular segment. 1 from −1 on down, 0 from 1 on up.
 pub fn disc_beyond_line(distance: f64) -> f64 {
@@ -126,6 +133,16 @@ mod tests {
         assert!((disc_beyond_line(0.0) - 0.5).abs() < 1e-15);
         // A segment of 120 degrees.
         assert!((disc_beyond_line(0.5) - (1.0 / 3.0 - 3.0f64.sqrt() / (4.0 * PI))).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_penumbra_is_as_wide_as_the_lines_past_the_edge_to_both_ends_of_the_light_say() {
+        // The light from −1 to 1 at height 4, the edge at 0 and height 1.
+        let [left, right] = [-1.0, 1.0].map(|x: f64| -x / 3.0);
+        assert!((penumbra_width(1.0, 4.0, 1.0) - (left - right)).abs() < 1e-15);
+        assert_eq!(penumbra_width(1.0, 4.0, 0.0), 0.0);
+        // A sun is a light far away of as large an angle.
+        assert!((penumbra_width(0.01, f64::INFINITY, 3.0) - penumbra_width(1e6, 1e8, 3.0)).abs() < 1e-8);
     }
 
     #[test]

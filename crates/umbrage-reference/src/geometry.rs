@@ -33,10 +33,15 @@ pub struct Surface {
 }
 
 /// One pixel of [`Geometry`].
-pub(crate) struct Shown {
-    depth: f64,
-    model: i32,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shown {
+    /// Distance of the surface along the view direction, metres.
+    pub depth: f64,
+    /// Model of the surface, [`umbrage_core::Instance::model`].
+    pub model: i32,
+    /// True where the surface receives shadows.
     pub receives: bool,
+    /// Where it is.
     pub surface: Surface,
 }
 
@@ -91,8 +96,9 @@ impl Tracer {
         }
     }
 
-    /// What the centre of a pixel of a picture of this size shows.
-    pub(crate) fn look(&self, camera: &Camera, (x, y): (u32, u32), (width, height): (u32, u32)) -> Option<Shown> {
+    /// What the centre of a pixel of a picture of this size shows: one ray; `None` where it shows
+    /// nothing.
+    pub fn look(&self, camera: &Camera, (x, y): (u32, u32), (width, height): (u32, u32)) -> Option<Shown> {
         let pixel = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
         let (start, direction) = (camera.start(pixel, width, height), camera.ray(pixel, width, height));
         let (triangle, depth) = self.first(start - self.center, direction, camera.near)?;

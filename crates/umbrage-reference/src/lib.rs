@@ -10,6 +10,7 @@ pub mod closed_form;
 mod cutout;
 mod geometry;
 mod kept;
+mod light_seen;
 mod light_view;
 mod progressive;
 mod shaft;
@@ -17,8 +18,9 @@ mod tracer;
 mod triangle;
 mod visibility;
 
-pub use geometry::{Geometry, Surface};
+pub use geometry::{Geometry, Shown, Surface};
 pub use kept::{Kept, Key, SceneKey, Traced};
+pub use light_seen::{Blocker, LightSeen, Spot};
 pub use progressive::Progressive;
 pub use tracer::Tracer;
 pub use visibility::{Options, Truth};

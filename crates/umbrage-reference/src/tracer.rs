@@ -116,7 +116,7 @@ impl Tracer {
     /// The first triangle along the way `origin + t · direction`, t over `t_min`, with its t.
     /// `origin` is relative to the centre.
     pub(crate) fn first(&self, origin: DVec3, direction: DVec3, t_min: f64) -> Option<(&Triangle, f64)> {
-        self.all.first(&Ray { origin, direction, t_min, t_max: f64::INFINITY }, &self.cutouts)
+        self.all.first(&Ray { origin, direction, t_min, t_max: f64::INFINITY }, None, &self.cutouts)
     }
 
     /// The instance that a triangle belongs to.

@@ -6,15 +6,18 @@
 //! opens the window.
 
 mod app;
+mod background;
 mod camera;
 #[cfg(not(target_family = "wasm"))]
 mod keep;
 mod later;
 mod link;
+mod loupe;
 #[cfg(not(target_family = "wasm"))]
 mod native;
 mod pace;
 mod pane;
+mod see;
 mod show;
 mod slow;
 mod stage;
@@ -26,6 +29,7 @@ mod undo;
 pub use app::{Lab, Options};
 #[cfg(not(target_family = "wasm"))]
 pub use native::{run, setup};
+pub use see::Reading;
 pub use show::SHADER;
 pub use state::{Layout, PaneState, State};
 

@@ -1,6 +1,7 @@
 //! One picture of the laboratory: a technique, or the truth, and what is known of it.
 
 use crate::later::Newest;
+use crate::loupe::Maps;
 use crate::show::{FORMAT, Show, Way, truth_texture, upload};
 use crate::slow::{self, Slow};
 use crate::stage::Stage;
@@ -71,6 +72,8 @@ pub(crate) struct Pane {
     pub extremes: Option<[f32; 2]>,
     looking: Newest<Result<Image<f32>, Error>>,
     slow: Slow,
+    /// The maps of the main light, of the frame that is shown.
+    pub maps: Arc<Maps>,
 }
 
 /// What all panes share in a frame.
@@ -117,6 +120,7 @@ impl Pane {
             extremes: None,
             looking: Newest::default(),
             slow: Slow::default(),
+            maps: Arc::default(),
         }
     }
 
@@ -264,6 +268,8 @@ impl Pane {
         renderer.frame(&drawn.camera).map_err(text)?;
         self.stats = renderer.stats(main);
         self.counts = renderer.counts(main);
+        self.keep_maps(stage, main, &drawn.camera);
+        let renderer = &mut stage.renderer;
         self.prepare_ms = renderer.prepare_ms();
         self.times = renderer.times();
         if !self.times.is_empty() {
@@ -274,6 +280,16 @@ impl Pane {
         self.copy(shared, stage, drawn, main)?;
         self.read(shared, stage, main);
         Ok(())
+    }
+
+    /// Remembers where the maps of the frame lie; another memory only where they do elsewhere.
+    fn keep_maps(&mut self, stage: &Stage, main: usize, camera: &Camera) {
+        let Some(inside) = stage.renderer.technique(main).map(|technique| technique.inside()) else { return };
+        let (views, splits) = (inside.light_views(), inside.split_distances());
+        let is_same = self.maps.views == views && self.maps.splits == splits && self.maps.camera == *camera;
+        if !is_same {
+            self.maps = Arc::new(Maps { views: views.into(), splits: splits.into(), camera: camera.clone() });
+        }
     }
 
     /// The pass of the light that pictures of one light show.

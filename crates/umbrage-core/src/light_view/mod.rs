@@ -17,7 +17,7 @@ mod warp;
 use crate::{bounds::Bounds, frustum::Frustum, light::LightShape};
 pub use cascades::{Cascades, Cover, fit_cascades};
 use glam::{DMat3, DMat4, DVec2, DVec3};
-pub use on_screen::{texel_on_screen, view_at};
+pub use on_screen::{texel_across, texel_on_screen, view_at};
 pub use paraboloid::Paraboloid;
 pub use warp::{CUBE_SIDES, Warp, fit_warped};
 

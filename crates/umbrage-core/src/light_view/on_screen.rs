@@ -38,20 +38,36 @@ pub fn texel_on_screen(
     let view = view_at(views, splits, camera, point)?;
     let (s, t) = normal.try_normalize()?.any_orthonormal_pair();
     let half = |w: u32, h: u32| DVec2::new(f64::from(w), f64::from(h)) * 0.5;
-    // Change of the place in a picture when the point moves along an axis of the surface.
-    let change = |clip_from_world: &DMat4, scale: DVec2, axis: DVec3| {
-        let (p, d) = (*clip_from_world * point.extend(1.0), *clip_from_world * axis.extend(0.0));
-        (d.truncate().truncate() * p.w - p.truncate().truncate() * d.w) / (p.w * p.w) * scale
-    };
-    let texels = [s, t].map(|a| change(&view.tangent_at(point), half(view.size, view.size), a));
-    let pixels = [s, t].map(|a| change(&camera.clip_from_world(), half(width, height), a));
-    let det = texels[0].perp_dot(texels[1]);
+    let texels = [s, t].map(|a| change(&view.tangent_at(point), half(view.size, view.size), point, a));
+    let pixels = [s, t].map(|a| change(&camera.clip_from_world(), half(width, height), point, a));
+    Some(largest(texels, pixels))
+}
+
+/// How far, in metres, one texel of `view` reaches at `point` across `way`, the direction to the
+/// light. Infinite where the view sees nothing across it.
+pub fn texel_across(view: &LightView, point: DVec3, way: DVec3) -> f64 {
+    let Some(way) = way.try_normalize() else { return f64::INFINITY };
+    let (s, t) = way.any_orthonormal_pair();
+    let half = DVec2::splat(f64::from(view.size) * 0.5);
+    let texels = [s, t].map(|a| change(&view.tangent_at(point), half, point, a));
+    largest(texels, [DVec2::X, DVec2::Y])
+}
+
+/// Change of the place in a picture when the point moves along an axis of the surface.
+fn change(clip_from_world: &DMat4, scale: DVec2, point: DVec3, axis: DVec3) -> DVec2 {
+    let (p, d) = (*clip_from_world * point.extend(1.0), *clip_from_world * axis.extend(0.0));
+    (d.truncate().truncate() * p.w - p.truncate().truncate() * d.w) / (p.w * p.w) * scale
+}
+
+/// The largest singular value of ∂`to`/∂`from`, both given as changes along the same two axes.
+fn largest(from: [DVec2; 2], to: [DVec2; 2]) -> f64 {
+    let det = from[0].perp_dot(from[1]);
     if det.abs() < f64::MIN_POSITIVE {
-        return Some(f64::INFINITY);
+        return f64::INFINITY;
     }
-    let x = (pixels[0] * texels[1].y - pixels[1] * texels[0].y) / det;
-    let y = (pixels[1] * texels[0].x - pixels[0] * texels[1].x) / det;
-    // Largest singular value of the 2×2 matrix with columns x and y.
+    let x = (to[0] * from[1].y - to[1] * from[0].y) / det;
+    let y = (to[1] * from[0].x - to[0] * from[1].x) / det;
+    // That of the 2×2 matrix with columns x and y.
     let (sum, product) = (x.length_squared() + y.length_squared(), x.perp_dot(y));
-    Some(((sum + (sum * sum - 4.0 * product * product).max(0.0).sqrt()) * 0.5).sqrt())
+    ((sum + (sum * sum - 4.0 * product * product).max(0.0).sqrt()) * 0.5).sqrt()
 }

@@ -99,19 +99,50 @@ impl LightFrom<'_> {
     /// go to equal shares of the light; the middle of the square to the centre (a textured
     /// rectangle apart).
     pub fn sample(&self, u: DVec2) -> DVec4 {
+        self.place(match self.domain {
+            Domain::Square => u * 2.0 - 1.0,
+            Domain::Picture(luminance) => luminance.sample(u) * 2.0 - 1.0,
+            Domain::Disc | Domain::Cap(_) => square_to_disc(u),
+        })
+    }
+
+    /// Half the extent along the light's two axes, metres, or for a directional light unit vectors
+    /// across it; zero where there is no extent.
+    pub fn axes(&self) -> [DVec3; 2] {
+        self.axes
+    }
+
+    /// The point `d.x` and `d.y` half extents from the light's middle, as [`LightFrom::sample`]
+    /// gives points. Of a sun they are as far from the middle as makes equal areas of the disc equal
+    /// shares of it.
+    pub fn place(&self, d: DVec2) -> DVec4 {
         let [x, y] = self.axes;
         let on_axes = |d: DVec2| (x * d.x + y * d.y).extend(0.0);
         match self.domain {
-            Domain::Square => self.center + on_axes(u * 2.0 - 1.0),
-            Domain::Picture(luminance) => self.center + on_axes(luminance.sample(u) * 2.0 - 1.0),
-            Domain::Disc => self.center + on_axes(square_to_disc(u)),
+            Domain::Square | Domain::Picture(_) | Domain::Disc => self.center + on_axes(d),
             Domain::Cap(height) => {
                 // Archimedes: the area of a cap goes by its height, so the height below the pole is
                 // `height` · r².
-                let d = square_to_disc(u);
                 let below = height * d.length_squared();
                 self.center * (1.0 - below) + on_axes(d * (height * (2.0 - below)).max(0.0).sqrt())
             }
+        }
+    }
+
+    /// How bright the light is around [`LightFrom::place`] of `d`, up to `reach` half extents to
+    /// either side: over the whole light 1 in the mean, outside of it 0.
+    pub fn brightness(&self, d: DVec2, reach: f64) -> f64 {
+        let is_inside = match self.domain {
+            Domain::Square | Domain::Picture(_) => d.abs().max_element() <= 1.0,
+            Domain::Disc | Domain::Cap(_) => d.length_squared() <= 1.0,
+        };
+        match self.domain {
+            Domain::Picture(luminance) if is_inside => {
+                let [low, high] = [-reach, reach].map(|by| ((d + by + 1.0) * 0.5).clamp(DVec2::ZERO, DVec2::ONE));
+                let area = (high - low).element_product();
+                if area > 0.0 { luminance.within(low, high) / area } else { 0.0 }
+            }
+            _ => f64::from(u8::from(is_inside)),
         }
     }
 }
@@ -230,6 +261,27 @@ mod tests {
             assert_moments("disc", &samples(&disc, p), CENTER, &[(direction, 0.0), (up, 1.0), (side, 1.0)]);
             let seconds = [(direction, 0.0), (side, 16.0 / 12.0), (up, 1.0 / 12.0)];
             assert_moments("rect", &samples(&rect, p), CENTER, &seconds);
+        }
+    }
+
+    #[test]
+    fn places_are_those_that_samples_are_at_and_bright_inside_of_the_light() {
+        let direction = DVec3::new(0.3, -1.0, 0.2).normalize();
+        let up = direction.any_orthonormal_vector();
+        let shapes = [
+            LightShape::Disc { position: CENTER, direction, radius: 2.0 },
+            LightShape::Rect { position: CENTER, direction, up, size: DVec2::new(4.0, 1.0), texture: None },
+            LightShape::Directional { direction, angle_deg: 30.0 },
+        ];
+        for shape in &shapes {
+            let sampler = LightSampler::new(shape, &[]);
+            let from = sampler.at(DVec3::ZERO);
+            assert_eq!(from.place(DVec2::ZERO), shape.center(), "{shape:?}");
+            assert_eq!([0.0, 0.99, 1.01].map(|x| from.brightness(DVec2::X * x, 0.0)), [1.0, 1.0, 0.0], "{shape:?}");
+            let edge = from.place(DVec2::X).truncate();
+            let way = if shape.center().w == 0.0 { edge.angle_between(-direction) } else { edge.distance(CENTER) };
+            let want = if shape.center().w == 0.0 { 15f64.to_radians() } else { 2.0 };
+            assert!((way - want).abs() < 1e-9, "{shape:?}: {way}");
         }
     }
 

@@ -1,6 +1,7 @@
 //! The tracer as a whole, from outside.
 
 mod closed_forms;
+mod light_seen;
 mod progressive;
 mod references;
 mod scales;

@@ -139,6 +139,8 @@ fn pane_menu(lab: &mut Lab, ui: &mut egui::Ui) {
     if ui.checkbox(&mut watches, "Observer").on_hover_text(text).changed() {
         lab.state.observer = watches.then(|| lab.state.camera.clone());
     }
+    let text = "All that is known of the pixel under the cursor, and the light as it sees it (P)";
+    ui.checkbox(&mut lab.face.see.has_loupe, "Loupe").on_hover_text(text);
     ui.checkbox(&mut lab.face.traces, "Trace the truth").on_hover_text("On idle cores, in the background");
     ui.checkbox(&mut lab.face.draws_always, "Draw all the time").on_hover_text("To time frames while nothing moves");
 }

@@ -12,7 +12,7 @@ use umbrage_report::RAY_TRACED;
 const SPEED: f64 = 0.6;
 
 /// What hands can do, as the help shows it.
-const HELP: [(&str, &str); 21] = [
+const HELP: [(&str, &str); 22] = [
     ("left drag", "turns the scene"),
     ("shift + left drag", "looks around"),
     ("middle drag", "moves the light at constant height; turns the sun"),
@@ -29,6 +29,7 @@ const HELP: [(&str, &str); 21] = [
     ("E", "error against the truth, and back"),
     ("L", "next light; after the last all of them"),
     ("O", "freezes the camera and looks on from outside"),
+    ("P", "loupe: all that is known of the pixel, and the light as it sees it"),
     ("I", "text on the pictures"),
     ("C", "copies the camera as the scene format has it"),
     ("Ctrl+S", "snapshot"),
@@ -73,6 +74,7 @@ const COMMANDS: &[(Modifiers, Key, Act)] = &[
     (Modifiers::NONE, Key::O, |lab, _| {
         lab.state.observer = if lab.state.observer.is_some() { None } else { Some(lab.state.camera.clone()) };
     }),
+    (Modifiers::NONE, Key::P, |lab, _| lab.face.see.has_loupe ^= true),
     (Modifiers::NONE, Key::I, |lab, _| lab.face.shows_text = !lab.face.shows_text),
     (Modifiers::NONE, Key::C, copy_camera),
     (Modifiers::SHIFT, Key::Questionmark, |lab, _| lab.face.shows_help = !lab.face.shows_help),

@@ -3,13 +3,16 @@
 mod bar;
 mod keys;
 mod light;
+mod loupe;
 mod panes;
 mod settings;
 mod statistics;
 mod status;
 
 use crate::app::Lab;
+use crate::see::See;
 use eframe::egui;
+pub(crate) use loupe::Kept;
 use web_time::Instant;
 
 /// How long a message stays, seconds.
@@ -40,6 +43,8 @@ pub(crate) struct Face {
     /// A file was asked for.
     #[cfg(not(target_family = "wasm"))]
     pub keep: Option<crate::keep::Kind>,
+    /// The loupe, and what is drawn over pictures.
+    pub see: See,
 }
 
 impl Face {
@@ -59,6 +64,7 @@ impl Face {
             clock_s: 0.0,
             #[cfg(not(target_family = "wasm"))]
             keep: None,
+            see: See::default(),
         }
     }
 
@@ -116,6 +122,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut egui::Ui, passed_s: f64) {
         });
     }
     egui::CentralPanel::no_frame().show(ui, |ui| panes::show(lab, ui));
+    loupe::show(lab, ui.ctx());
     keys::help(lab, ui.ctx());
     bar::search(lab, ui.ctx());
     if lab.face.turns {

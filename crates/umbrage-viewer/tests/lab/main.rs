@@ -2,4 +2,5 @@
 
 mod common;
 mod first;
+mod see;
 mod walk;
