@@ -26,7 +26,7 @@ const CELL: u32 = 16;
 
 /// How far ground reaches to all sides, in heights of the eye, and the depth of what is as far away
 /// as its height.
-const GROUND: f64 = 10.0;
+pub(crate) const GROUND: f64 = 10.0;
 const NEAR: f64 = 0.5;
 
 /// Pixels by which surfaces are shifted at most, across and down together.

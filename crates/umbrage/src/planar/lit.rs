@@ -18,8 +18,8 @@ pub(crate) struct LitPlane {
     /// Around what is seen of the receivers, along `right` and `up`, metres.
     pub low: DVec2,
     pub high: DVec2,
-    /// Some of its receivers reach behind the eye.
-    pub is_long: bool,
+    /// As that of [`SeenPlane`].
+    pub reach: f64,
     /// The light's centre over its height: the way back along a ray for each metre of height. It
     /// is a point where `inverse_height` is not 0, else a direction.
     pub light: DVec3,
@@ -54,7 +54,7 @@ impl LitPlane {
     pub fn of(seen: &SeenPlane, origin: DVec3, light: DVec4, least: f64) -> Option<Self> {
         let height = seen.plane.dot(light);
         let is_above = if light.w == 0.0 { height.abs() > LEAST_SINE } else { height.abs() > least };
-        let SeenPlane { plane, right, up, low, high, is_long, .. } = *seen;
+        let SeenPlane { plane, right, up, low, high, reach, .. } = *seen;
         is_above.then(|| Self {
             origin,
             plane: plane * height.signum(),
@@ -62,7 +62,7 @@ impl LitPlane {
             up,
             low,
             high,
-            is_long,
+            reach,
             light: light.truncate() / height.abs(),
             inverse_height: light.w / height.abs(),
             least,
@@ -182,7 +182,7 @@ mod tests {
             up: DVec3::NEG_Z,
             low,
             high,
-            is_long: false,
+            reach: 0.0,
             pixels: 1.0,
             rank: (0, 0),
         }

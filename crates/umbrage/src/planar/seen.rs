@@ -16,8 +16,8 @@ pub(crate) struct SeenPlane {
     /// Around what is seen of its receivers, along `right` and `up`, metres.
     pub low: DVec2,
     pub high: DVec2,
-    /// Some of its receivers reach behind the eye.
-    pub is_long: bool,
+    /// How far it reaches where some of it is behind the eye, in heights of the eye over it; else 0.
+    pub reach: f64,
     /// How many pixels its receivers would cover, were nothing before them.
     pub pixels: f64,
     /// Tells planes apart in the order in which their receivers came.
@@ -87,8 +87,10 @@ impl SeenPlanes {
             let (low, high) = polygon.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), around);
             let pixels = screen.area(polygon) * plane.share();
             if polygon.len() > 2 && pixels >= least {
-                let is_long = !screen.has_before(&plane.corners());
-                self.list.push(SeenPlane { plane: equation, right, up, low, high, is_long, pixels, rank: plane.rank });
+                let farthest = plane.corners().iter().map(|p| p.distance(eye)).fold(0.0, f64::max);
+                let is_before = screen.has_before(&plane.corners());
+                let reach = if is_before { 0.0 } else { farthest / equation.dot(eye.extend(1.0)).abs() };
+                self.list.push(SeenPlane { plane: equation, right, up, low, high, reach, pixels, rank: plane.rank });
             }
         }
     }
@@ -121,7 +123,7 @@ impl SeenPlane {
                 (self.low, self.high) = (self.low.min(at), self.high.max(at));
             }
             self.pixels += other.pixels;
-            self.is_long |= other.is_long;
+            self.reach = self.reach.max(other.reach);
         }
         coincides
     }

@@ -6,6 +6,7 @@ use super::lit::LitPlane;
 use crate::fullscreen::{UNIFORM, bind, layout};
 use crate::receivers::Eye;
 use crate::shader::{Shared, shader_struct};
+use crate::snapping::GROUND;
 use crate::{gpu::Gpu, passes::Passes, view::View};
 use umbrage_core::glam::{DMat4, DVec2};
 
@@ -60,10 +61,11 @@ shader_struct! {
     }
 }
 
-/// A rasteriser shifts surfaces by so many times as much as is measured at most; and by so many
-/// times where it finds depth from corners behind the eye.
+/// A rasteriser shifts surfaces by so many times as much as is measured at most. Where it finds
+/// depth from corners behind the eye, that grows with how far these are: it is this much at least,
+/// and no more is allowed for.
 const SPREAD: f64 = 2.0;
-const LONG_SPREAD: f64 = 16.0;
+const LONG_SPREAD: std::ops::RangeInclusive<f64> = 16.0..=256.0;
 
 /// A step of single precision, as `position_rounding` in `receivers.wgsl` has it.
 const ROUNDING: f32 = 1.2e-7;
@@ -112,7 +114,8 @@ impl FoundPlane {
         };
         let across = eye_from_ndc.transpose() * equation;
         let shifted = [0, 1].map(|i| equation.truncate().dot(eye_from_ndc.col(i).truncate()).abs());
-        let spread = if plane.is_long { LONG_SPREAD } else { SPREAD };
+        let long = (plane.reach / GROUND).clamp(*LONG_SPREAD.start(), *LONG_SPREAD.end());
+        let spread = if plane.reach > 0.0 { long } else { SPREAD };
         let snapped = DVec2::from(shifted) * 2.0 * spread * f64::from(view.receivers.snapping) / size;
         Self {
             across: across.as_vec4().to_array(),

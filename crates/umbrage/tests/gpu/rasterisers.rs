@@ -69,3 +69,19 @@ fn warped_maps_of_a_large_ground_show_what_stands_on_it() {
         assert!(with < 0.5 * without, "{id} {set}: mae {with:.5}, without any shadow {without:.5}");
     }
 }
+
+/// A rasteriser that finds depth from corners far behind the eye shifts the ground by a pixel and
+/// more; it still is the plane that its pixels belong to.
+#[test]
+fn ground_that_reaches_far_behind_the_eye_has_its_shadows() {
+    let gpu = gpu();
+    let camera = Camera { eye: DVec3::new(3.0, 2.0, 20.0), fov_y_deg: 45.0, ..Camera::default() };
+    let direction = DVec3::new(0.9, -1.0, 0.15).normalize();
+    let sun = LightShape::Directional { direction, angle_deg: 0.0 };
+    let scene = boxes(320.0, DVec3::new(1.0, 1.0, 640.0), &[(0.0, 0.0)], camera, vec![sun]);
+    let mae = |id: &str| against_truth(&gpu, &scene, 0, id, "", (240, 180), 1).mae;
+    let (without, with) = (mae("none"), mae("projective"));
+    println!("mae {with:.5}, without shadows {without:.5}");
+    assert!(without > 0.05, "there is next to no shadow");
+    assert!(with < 0.01, "mae {with:.5}");
+}
