@@ -106,7 +106,9 @@ impl InstanceNumbers {
         let mut next = self.numbers.len() as u32;
         for &number in casters.batches.order() {
             let (batch, slots) = (casters.batches.get(number), &mut self.slots[number as usize]);
-            let is_empty = casters.meshes()[batch.mesh as usize].index_count() == 0;
+            let many = batch.many.and_then(|place| casters.placed[place as usize].many.as_ref());
+            let count = many.map_or(1, |many| many.matrices.count);
+            let is_empty = casters.meshes()[batch.mesh as usize].index_count() == 0 || count == 0;
             let open = if batch.masked { Surface::Masked } else { Surface::Open };
             for (slot, surface) in slots.iter_mut().zip([open, Surface::Solid]) {
                 let first = next;

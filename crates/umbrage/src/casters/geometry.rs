@@ -1,119 +1,17 @@
 //! The meshes in shared buffers: where each lies, and what the CPU knows of it.
 
-use super::form::{ATTRIBUTES, Form, POSITIONS, Stream, Uvs};
+mod lending;
+mod part;
+
 use super::ids::Slots;
 use super::journal::Journal;
-use super::lent::{Lent, LentMatrices, LentMesh, LentShape};
 use super::store::{Parts, Store};
 use super::vertices::{attributes, weights};
 use crate::{error::Error, gpu::Gpu};
+pub(crate) use part::MeshPart;
+pub use part::Vertices;
 use std::{ops::Range, sync::Arc};
-use umbrage_core::glam::DVec4;
 use umbrage_core::{Bounds, Mesh, solid::is_convex_solid};
-
-/// A mesh and where it lies in the shared buffers.
-pub(crate) struct MeshPart {
-    /// Without appearance where it has no joints; of a posed instance as it was bound. Empty where
-    /// nothing is.
-    pub mesh: Arc<Mesh>,
-    pub first_index: u32,
-    pub base_vertex: u32,
-    /// Another one after every change of its vertices or triangles; 0 where nothing is.
-    pub version: u64,
-    /// Of a posed instance's own mesh, the mesh that it is made of.
-    pub source: Option<u32>,
-    /// Where it is drawn from, where that is not here. Vertices and triangles that are known are
-    /// here as well, for edges.
-    pub lent: Option<Lent>,
-    pub(super) bounds: Bounds,
-    pub(super) plane: Option<DVec4>,
-    /// It is the surface of a convex body.
-    pub(super) solid: bool,
-    /// What tells its place in the order of draws.
-    pub(super) order: u64,
-    /// Where its weights lie, see [`weights`].
-    pub(super) weights: Range<u32>,
-    /// Places of the instances that it is the mesh of.
-    pub(super) members: Vec<u32>,
-    /// How many of them cast shadows.
-    pub(super) casting: u32,
-    vertices: Range<u32>,
-    indices: Range<u32>,
-}
-
-impl MeshPart {
-    fn nothing() -> Self {
-        Self {
-            mesh: Arc::default(),
-            first_index: 0,
-            base_vertex: 0,
-            version: 0,
-            source: None,
-            lent: None,
-            bounds: Bounds::EMPTY,
-            plane: None,
-            solid: false,
-            order: 0,
-            weights: 0..0,
-            members: Vec::new(),
-            casting: 0,
-            vertices: 0..0,
-            indices: 0..0,
-        }
-    }
-
-    /// How many indices are drawn.
-    pub fn index_count(&self) -> u32 {
-        self.lent.as_ref().map_or(self.mesh.indices.len() as u32, |lent| lent.indices.range.len() as u32)
-    }
-
-    /// The GPU alone knows where its vertices are.
-    pub fn is_moving(&self) -> bool {
-        self.lent.as_ref().is_some_and(|lent| lent.is_moving)
-    }
-
-    /// Nobody knows its triangles.
-    pub fn is_unknown(&self) -> bool {
-        self.lent.as_ref().is_some_and(|lent| lent.is_unknown)
-    }
-
-    /// Indices to draw, of the buffer that [`Geometry::bind`] binds.
-    pub(super) fn drawn(&self) -> Range<u32> {
-        match &self.lent {
-            Some(lent) => lent.indices.range.clone(),
-            None => self.first_index..self.first_index + self.mesh.indices.len() as u32,
-        }
-    }
-
-    /// What is added to these.
-    pub(super) fn drawn_from(&self) -> i32 {
-        self.lent.as_ref().map_or(self.base_vertex, |lent| lent.indices.base_vertex) as i32
-    }
-
-    /// The buffers that are drawn from.
-    pub(super) fn form(&self, matrices: Option<&LentMatrices>) -> Form {
-        let matrices = matrices.map(|m| (m.form, m.stride));
-        let Some(lent) = &self.lent else { return Form { matrices, ..Form::OWN } };
-        let uvs = lent.uvs.as_ref().map_or(Uvs::Nothing, |uvs| Uvs::Lent(Stream::of(uvs)));
-        Form { positions: Stream::of(&lent.positions), uvs, matrices }
-    }
-}
-
-/// Where the vertices of an instance lie in the library's buffers. They may lie elsewhere after
-/// meshes or instances came or went: ask again in every frame.
-#[derive(Clone, Copy, Debug)]
-pub struct Vertices<'a> {
-    /// Three 32-bit floats each, in mesh space; of an instance with joints as these have bent it.
-    pub positions: wgpu::BufferSlice<'a>,
-    /// Six 32-bit floats each: the normal, the texture coordinate, and the opacity.
-    pub attributes: wgpu::BufferSlice<'a>,
-    /// Three 32-bit numbers a triangle, the first vertex being 0.
-    pub indices: wgpu::BufferSlice<'a>,
-    /// How many vertices there are.
-    pub vertex_count: u32,
-    /// How many indices there are.
-    pub index_count: u32,
-}
 
 /// All meshes.
 pub(super) struct Geometry {
@@ -238,30 +136,6 @@ impl Geometry {
         Ok(())
     }
 
-    /// Adds a mesh that is lent; its number.
-    pub fn lend(&mut self, gpu: &Gpu, journal: &mut Journal, mesh: &LentMesh<'_>) -> Result<u32, Error> {
-        let parts = self.take(gpu, journal, counts(mesh))?;
-        let number = self.slot();
-        self.changes += 1;
-        self.meshes[number as usize] = MeshPart { order: self.changes, ..MeshPart::nothing() };
-        self.fill_lent(journal, number, mesh, parts);
-        Ok(number)
-    }
-
-    /// Puts a mesh that is lent in the place of one, which stays as it is where there is an error.
-    pub fn lend_again(
-        &mut self,
-        gpu: &Gpu,
-        journal: &mut Journal,
-        number: u32,
-        mesh: &LentMesh<'_>,
-    ) -> Result<(), Error> {
-        let parts = self.take(gpu, journal, counts(mesh))?;
-        self.clear(number);
-        self.fill_lent(journal, number, mesh, parts);
-        Ok(())
-    }
-
     /// Gives the memory of a mesh back.
     fn clear(&mut self, number: u32) {
         let part = &mut self.meshes[number as usize];
@@ -269,80 +143,18 @@ impl Geometry {
         self.parts.iter_mut().zip(old).for_each(|(parts, part)| parts.give_back(part));
     }
 
-    /// What is known of a mesh that is lent.
-    fn fill_lent(
-        &mut self,
-        journal: &mut Journal,
-        number: u32,
-        mesh: &LentMesh<'_>,
-        [vertices, indices]: [Range<u32>; 2],
-    ) {
-        self.changes += 1;
-        let part = &mut self.meshes[number as usize];
-        (part.first_index, part.base_vertex) = (indices.start, vertices.start);
-        (part.vertices, part.indices) = (vertices, indices);
-        part.version = self.changes;
-        part.lent = Some(Lent::of(mesh));
-        part.bounds = mesh.shape.bounds();
-        (part.plane, part.solid) = match mesh.shape {
-            LentShape::Rigid(known) => (known.plane(), is_convex_solid(known)),
-            _ => (None, false),
-        };
-        let known = mesh.shape.mesh().map(|known| Mesh {
-            positions: known.positions.clone(),
-            indices: known.indices.clone(),
-            ..Mesh::default()
-        });
-        let known = known.unwrap_or_default();
-        self.positions.write(journal, part.base_vertex, &known.positions);
-        self.indices.write(journal, part.first_index, &known.indices);
-        part.mesh = Arc::new(known);
-    }
-
-    /// Has draws read the vertices and indices of a mesh, in buffers as [`MeshPart::form`] says.
-    pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, part: &MeshPart, reads_uvs: bool) {
-        let Some(Lent { positions, uvs, indices, .. }) = &part.lent else {
-            pass.set_vertex_buffer(POSITIONS, self.positions.buffer().slice(..));
-            pass.set_vertex_buffer(ATTRIBUTES, self.attributes.buffer().slice(..));
-            // Small meshes cost what their vertices cost, and a box has three times as many as
-            // places.
-            let indices = if reads_uvs { &self.indices } else { &self.welded };
-            pass.set_index_buffer(indices.buffer().slice(..), wgpu::IndexFormat::Uint32);
-            return;
-        };
-        pass.set_vertex_buffer(POSITIONS, positions.buffer.slice(positions.offset..));
-        match uvs {
-            Some(uvs) => pass.set_vertex_buffer(ATTRIBUTES, uvs.buffer.slice(uvs.offset..)),
-            None => pass.set_vertex_buffer(ATTRIBUTES, self.nothing.slice(..)),
-        }
-        pass.set_index_buffer(indices.buffer.slice(..), indices.format);
-    }
-
-    /// Where draws of a host's own find a mesh.
-    pub fn vertices(&self, part: &MeshPart) -> Vertices<'_> {
-        let (vertex_count, index_count) = (part.mesh.positions.len() as u32, part.index_count());
-        Vertices {
-            positions: self.positions.slice(part.base_vertex, vertex_count),
-            attributes: self.attributes.slice(part.base_vertex, vertex_count),
-            indices: self.indices.slice(part.first_index, index_count),
-            vertex_count,
-            index_count,
-        }
-    }
-
-    /// Another box around a lent mesh that has moved.
-    pub fn touch(&mut self, number: u32, bounds: Bounds) {
-        self.changes += 1;
-        let part = &mut self.meshes[number as usize];
-        (part.version, part.bounds) = (self.changes, bounds);
-    }
-
     /// Gives a mesh other vertices, as many as it has.
     pub fn deform(&mut self, journal: &mut Journal, number: u32, mesh: &Mesh) {
+        let part = &mut self.meshes[number as usize];
+        let known = part.welded.take().unwrap_or_else(|| part.mesh.welded_indices());
         self.fill(journal, number, mesh);
-        // Vertices that were in one place may have parted.
-        let part = &self.meshes[number as usize];
-        self.welded.write(journal, part.first_index, &mesh.welded_indices());
+        // Vertices that were in one place may have parted, and triangles may have lost their area.
+        let welded = mesh.welded_indices();
+        let part = &mut self.meshes[number as usize];
+        if welded != known {
+            self.welded.write(journal, part.first_index, &welded);
+        }
+        part.welded = Some(welded);
     }
 
     pub fn remove(&mut self, number: u32) {
@@ -417,7 +229,7 @@ impl Geometry {
             true => Mesh { positions: mesh.positions.clone(), indices: mesh.indices.clone(), ..Mesh::default() },
             false => mesh.clone(),
         });
-        part.version = self.changes;
+        (part.version, part.welded) = (self.changes, None);
         (part.bounds, part.plane, part.solid) = (mesh.bounds(), mesh.plane(), is_convex_solid(mesh));
         self.write_vertices(journal, number, mesh);
     }
@@ -433,11 +245,6 @@ impl Geometry {
         self.indices.write(journal, part.first_index, &mesh.indices);
         self.welded.write(journal, part.first_index, &mesh.welded_indices());
     }
-}
-
-/// Vertices and indices that there has to be room for.
-fn counts(mesh: &LentMesh<'_>) -> [usize; 2] {
-    mesh.shape.mesh().map_or([0; 2], |known| [known.positions.len(), known.indices.len()])
 }
 
 /// Indices that lead somewhere.

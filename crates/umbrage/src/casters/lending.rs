@@ -14,7 +14,7 @@ use umbrage_core::Bounds;
 impl Casters {
     /// Adds a mesh that is drawn from a host's own buffers, where they are, to be placed by
     /// [`Casters::insert`] or [`Casters::insert_lent`]. [`crate::SeenCasters`] leaves it to the
-    /// host to draw. Nothing is copied but what [`crate::LentShape`] tells, which takes 40 bytes a
+    /// host to draw. Nothing is copied but what [`crate::LentShape`] tells, which takes 36 bytes a
     /// vertex and 8 an index for techniques with edges.
     ///
     /// # Errors

@@ -247,7 +247,10 @@ impl Casters {
     /// After a material has changed.
     fn follow_material(&mut self, number: u32) {
         let members = self.appearance.looks[number as usize].members.clone();
-        members.into_iter().for_each(|place| self.look(place));
+        members.into_iter().for_each(|place| {
+            let was_masked = self.placed[place as usize].masked;
+            self.look_otherwise(place, was_masked);
+        });
     }
 
     /// After a mesh has changed.

@@ -6,7 +6,7 @@ use super::changed::Changed;
 use super::edges::{Edges, MeshEdges};
 use super::form::Form;
 use super::geometry::{Geometry, MeshPart, Sizes};
-use super::host::{CasterView, Host, HostCasters, refuse};
+use super::host::{Host, refuse};
 use super::ids::{Id, Slots};
 use super::journal::Journal;
 use super::lent::Following;
@@ -20,8 +20,8 @@ use super::region::Region;
 use super::store::Store;
 use crate::fullscreen::{STORAGE, bind, layout};
 use crate::{error::Error, gpu::Gpu};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, OnceLock};
 use umbrage_core::glam::{DVec3, Vec4};
 use umbrage_core::{Bounds, Mesh, Scene, scene_tree::SceneTree};
 
@@ -167,76 +167,6 @@ impl Casters {
     pub fn bytes(&self) -> u64 {
         let own = self.geometry.bytes() + self.appearance.store.bytes() + self.instances.bytes();
         own + self.poses.bytes() + self.following.bytes() + self.edges.get().map_or(0, Edges::bytes)
-    }
-
-    /// Boxes around the instances that cast shadows.
-    pub fn casting_bounds(&self) -> impl Iterator<Item = Bounds> + '_ {
-        self.placed.iter().filter(|p| p.casts).map(|p| p.bounds)
-    }
-
-    /// Says where shadows are asked for besides on the instances: boxes around particles, panes and
-    /// fog that a shader of the host's own shades, see [`crate::Inline`]. They take the place of
-    /// those given before. Maps cover what the camera sees of them, and then have fewer texels for
-    /// the rest. Boxes that are empty or not finite count for nothing.
-    pub fn receive_in(&mut self, boxes: &[Bounds]) {
-        let is_finite = |b: &&Bounds| b.min.is_finite() && b.max.is_finite() && !b.is_empty();
-        self.receiving_in.clear();
-        self.receiving_in.extend(boxes.iter().filter(is_finite));
-    }
-
-    /// The boxes of [`Casters::receive_in`].
-    pub(crate) fn receiving_in(&self) -> &[Bounds] {
-        &self.receiving_in
-    }
-
-    /// Boxes around the instances that shadows fall on.
-    pub fn receiving_bounds(&self) -> impl Iterator<Item = Bounds> + '_ {
-        self.placed.iter().filter(|p| p.receives).map(|p| p.bounds)
-    }
-
-    /// A box around everything that shadows fall on.
-    pub(crate) fn receivers_bounds(&self) -> Bounds {
-        self.receiving_in.iter().fold(self.receiving.content(), |all, one| all.union(*one))
-    }
-
-    /// Has the host draw casters of its own into the maps of lights, somewhere within `bounds`;
-    /// `None` ends that. Techniques that need more than depth refuse such casters: see
-    /// [`crate::TechniqueInfo::casters`]. To be called again whenever they move or look otherwise,
-    /// or maps that are kept show them as they were.
-    ///
-    /// # Errors
-    /// [`Error::Scene`] for a box that is empty or not finite.
-    pub fn set_host_casters(&mut self, new: Option<(Bounds, Arc<dyn HostCasters>)>) -> Result<(), Error> {
-        self.host = new.map(|(bounds, draws)| Host::new(bounds, draws)).transpose()?;
-        self.version = next_version();
-        Ok(())
-    }
-
-    /// True where the host draws casters itself.
-    pub(crate) fn has_host_casters(&self) -> bool {
-        self.host.is_some()
-    }
-
-    /// The box around what the host draws itself.
-    pub(crate) fn host_bounds(&self) -> Option<Bounds> {
-        self.host.as_ref().map(|host| host.bounds)
-    }
-
-    /// Has the host draw its own casters.
-    pub(crate) fn draw_host_casters(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView<'_>) {
-        if let Some(host) = &self.host {
-            host.draws.draw(pass, view);
-        }
-    }
-
-    /// A box around everything that casts shadows, what the host draws included.
-    pub(crate) fn casting_content(&self) -> Bounds {
-        self.casting.content().union(self.host_bounds().unwrap_or(Bounds::EMPTY))
-    }
-
-    /// A box around everything that is shown.
-    pub(crate) fn all_bounds(&self) -> Bounds {
-        self.casting_content().union(self.receivers_bounds()).union(self.bystanders.content())
     }
 
     /// Tells these casters from others, and from what they were before all of them was sent anew.

@@ -2,8 +2,8 @@
 //! where nothing changes.
 
 use crate::common::{gpu, move_instance, pairs, scene};
-use umbrage::core::glam::{DAffine3, DVec3};
-use umbrage::core::{Camera, LightShape, Scene};
+use umbrage::core::glam::{DAffine3, DVec3, Vec4};
+use umbrage::core::{Camera, LightShape, Material, Scene};
 use umbrage::fullscreen::target_texture;
 use umbrage::{Casters, Gpu, Receivers, Recorder, View, VisibilityTarget, find};
 use umbrage_renderer::{LightPass, Renderer};
@@ -186,6 +186,33 @@ fn a_place_that_an_instance_has_is_no_move() {
         pair.check("everything is put where it is");
     });
     assert_eq!(pair.kept.stats(0).draws, 1, "the look-up alone");
+}
+
+/// What is opaque casts the same in any colour; with an alpha mask it does not.
+#[test]
+fn another_colour_draws_no_map() {
+    let gpu = gpu();
+    let mut pair = Pair::new(&gpu, scene("primitives", 0.1), 0, "shadow-map", "focus=light");
+    (0..3).for_each(|_| {
+        pair.check("before");
+    });
+    let mut change = |material: &Material, all: bool| {
+        for renderer in [&mut pair.kept, &mut pair.drawn] {
+            let casters = renderer.casters_mut();
+            let id = casters.material(0).unwrap();
+            casters.replace_material(id, material, None).unwrap();
+            let new = casters.add_material(material, None).unwrap();
+            let instances: Vec<_> = (0..).map_while(|i| casters.instance(i)).collect();
+            instances.iter().filter(|_| all).for_each(|id| casters.set_material(*id, new).unwrap());
+        }
+        pair.check("another look")[0]
+    };
+    let red = Material { base_color: Vec4::new(1.0, 0.2, 0.1, 1.0), ..Material::default() };
+    assert_eq!([change(&red, false), change(&red, true)], [1, 1], "the look-up alone");
+    let clear = Material { alpha_cutoff: Some(2.0), ..red.clone() };
+    assert!(change(&clear, true) > 1, "all are cut out");
+    assert_eq!(change(&clear, false), 1, "no instance has the first material any more");
+    assert!(change(&red, true) > 1, "all are there again");
 }
 
 #[test]

@@ -27,6 +27,9 @@ pub(in crate::casters) fn check_mesh(gpu: &Gpu, mesh: &LentMesh<'_>) -> Result<(
         check_vertices(gpu, "texture coordinates", uvs, (*vertex_count, UVS), BufferUsages::VERTEX)?;
     }
     check_indices(indices)?;
+    if *vertex_count == 0 && !indices.range.is_empty() {
+        return refuse("indices are lent without vertices; lend both, or neither");
+    }
     check_device(gpu, [Some(positions), uvs.as_ref()].into_iter().flatten().map(|v| &v.buffer), Some(&indices.buffer))?;
     if let Some(known) = shape.mesh() {
         check_shape(known, indices, *vertex_count)?;
@@ -139,10 +142,12 @@ fn check_device<'a>(
             color_attachments: &[attachment(&target, wgpu::LoadOp::Load)],
             ..Default::default()
         });
-        for (slot, buffer) in (0..).zip(vertices) {
+        // Nothing is drawn from what is empty.
+        let is_there = |buffer: &&wgpu::Buffer| buffer.size() > 0;
+        for (slot, buffer) in (0..).zip(vertices.filter(is_there)) {
             pass.set_vertex_buffer(slot, buffer.slice(..));
         }
-        if let Some(indices) = indices {
+        if let Some(indices) = indices.filter(is_there) {
             pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
         }
         drop(pass);

@@ -6,7 +6,7 @@ use umbrage::core::{Bounds, Camera, Light, LightShape, Material, Mesh, primitive
 use umbrage::fullscreen::target_texture;
 use umbrage::{
     Casters, Error, Gpu, LentIndices, LentInstances, LentMatrices, LentMesh, LentShape, LentVertices, MatrixForm,
-    Needs, Placement, Receivers, Recorder, TechniqueInfo, View, techniques,
+    Needs, Placement, Receivers, Recorder, TechniqueInfo, View, VisibilityTarget, find, techniques,
 };
 use wgpu::{BufferUsages as Usage, IndexFormat, VertexFormat};
 
@@ -96,6 +96,15 @@ fn buffers_that_can_not_be_drawn_from_are_refused() {
         let said = text(casters.lend_mesh(&mesh));
         assert!(said.contains(says), "{said:?} and not {says:?}");
     }
+    let empty = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: 0,
+        usage: Usage::VERTEX | Usage::INDEX,
+        mapped_at_creation: false,
+    });
+    let positions = LentVertices { buffer: empty.clone(), ..good.positions.clone() };
+    let nothing = LentMesh { positions, vertex_count: 0, ..good.clone() };
+    assert!(text(casters.lend_mesh(&nothing)).contains("without vertices"));
     let id = casters.lend_mesh(&good).unwrap();
     casters.remove_mesh(id).unwrap();
     assert!(text(casters.touch_mesh(id, &unit())).contains("names no mesh"));
@@ -202,4 +211,76 @@ fn techniques_that_need_edges_refuse_what_nobody_knows() {
     let known = primitive::cube();
     casters.lend_mesh_again(mesh, &LentMesh { shape: LentShape::Rigid(&known), ..cube(&gpu) }).unwrap();
     assert_eq!(refuses(&mut casters), Vec::<&str>::new());
+    // The host moves it: whoever looks at vertices on the CPU can't follow.
+    let mut lent = LentMesh { shape: LentShape::Moving(&known, unit()), ..cube(&gpu) };
+    lent.positions.buffer = gpu.buffer("positions", &known.positions, Usage::VERTEX | Usage::STORAGE);
+    casters.lend_mesh_again(mesh, &lent).unwrap();
+    assert_eq!(refuses(&mut casters), ["light-mask"]);
+    let view = View { camera, receivers: &receivers, casters: &casters, light: &sphere, textures: &[] };
+    let point = Light::new(LightShape::Point { position });
+    for (set, refused) in [("cpu", true), ("compute", false), ("vertex", false)] {
+        let set = [("extrude".to_string(), set.to_string())];
+        let mut volume = find("volume").unwrap().settings(&set).unwrap().make(&gpu).unwrap();
+        let said = text(volume.prepare(&gpu, &View { light: &point, ..view }));
+        assert_eq!(said.contains("the host moves"), refused, "{said:?}");
+    }
+    // The library's own takes its place.
+    casters.replace_mesh(mesh, &known).unwrap();
+    assert_eq!(refuses(&mut casters), Vec::<&str>::new());
+}
+
+/// Nothing is nothing, and casts no shadow.
+#[test]
+fn empty_buffers_are_no_casters() {
+    let gpu = gpu();
+    let mut casters = Casters::empty(&gpu).unwrap();
+    let material = casters.add_material(&Material::default(), None).unwrap();
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: 0,
+        usage: Usage::VERTEX | Usage::INDEX | Usage::STORAGE,
+        mapped_at_creation: false,
+    });
+    let nothing = Mesh::default();
+    let positions = LentVertices { buffer: buffer.clone(), offset: 8, stride: 12, format: VertexFormat::Float32x3 };
+    let indices = LentIndices { buffer: buffer.clone(), format: IndexFormat::Uint16, range: 0..0, base_vertex: 0 };
+    let shapes =
+        [LentShape::Unknown(Bounds::EMPTY), LentShape::Rigid(&nothing), LentShape::Moving(&nothing, Bounds::EMPTY)];
+    let matrices = LentMatrices { buffer, offset: 0, stride: 64, form: MatrixForm::Columns4x4, count: 0 };
+    let cube = casters.add_mesh(&primitive::cube()).unwrap();
+    for shape in shapes {
+        let (positions, indices) = (positions.clone(), indices.clone());
+        let lent = LentMesh { positions, vertex_count: 0, uvs: None, indices, shape };
+        let mesh = casters.lend_mesh(&lent).unwrap();
+        casters.insert(&Placement::new(mesh, material, DAffine3::IDENTITY)).unwrap();
+        for mesh in [mesh, cube] {
+            let group = LentInstances {
+                mesh,
+                material,
+                world_from_group: DAffine3::IDENTITY,
+                matrices: matrices.clone(),
+                bounds: unit(),
+                casts: true,
+                receives: true,
+            };
+            casters.insert_lent(&group).unwrap();
+        }
+    }
+    let size = (8, 8);
+    let depth = target_texture(&gpu, "depth", size, 1, wgpu::TextureFormat::Depth32Float);
+    let receivers = Receivers::new(&gpu, &depth.create_view(&Default::default()), None, size).unwrap();
+    let target = VisibilityTarget::new(&gpu, size.0, size.1).unwrap();
+    let camera = Camera { eye: DVec3::new(0.0, 3.0, 3.0), ..Camera::default() }.view(size.0, size.1);
+    let light = Light::new(LightShape::Point { position: DVec3::Y * 4.0 });
+    let mut technique = find("shadow-map").unwrap().settings(&[]).unwrap().make(&gpu).unwrap();
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let mut recorder = Recorder::new(&gpu);
+    let mut passes = recorder.begin(&mut encoder);
+    casters.record(&mut passes).unwrap();
+    let view = View { camera, receivers: &receivers, casters: &casters, light: &light, textures: &[] };
+    technique.prepare(&gpu, &view).unwrap().record(&mut passes, &target).unwrap();
+    passes.finish();
+    gpu.queue.submit([encoder.finish()]);
+    gpu.check().unwrap();
+    assert_eq!(technique.inside().stats().draws, 1, "the look-up alone");
 }
