@@ -21,8 +21,8 @@ impl Casters {
         self.track(place);
     }
 
-    /// After an instance got another material, or its material has changed: what is opaque, and was,
-    /// casts the same.
+    /// After an instance got another material, or its material has changed: what is opaque, and
+    /// was, casts the same.
     pub(super) fn look_otherwise(&mut self, place: u32, was_masked: bool) {
         self.look(place);
         if was_masked || self.placed[place as usize].masked {

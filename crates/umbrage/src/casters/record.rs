@@ -54,8 +54,8 @@ impl Casters {
         Err(Error::Scene(what.into()))
     }
 
-    /// Planes between vertices that a host moves are made in frames alone, so edges have to be there
-    /// before a technique asks. Where they do not fit, techniques that ask say why.
+    /// Planes between vertices that a host moves are made in frames alone, so edges have to be
+    /// there before a technique asks. Where they do not fit, techniques that ask say why.
     fn make_edges_that_follow(&mut self) {
         if self.following.is_empty() || self.edges.get().is_some() || self.edges_do_not_fit {
             return;
