@@ -24,7 +24,8 @@ pub fn tables() -> Result<()> {
     shell::run(command)
 }
 
-/// Renders the pictures of the README into `docs/pictures/`.
+/// Renders the pictures of the README into `docs/pictures/`, and those of the library's own
+/// documentation.
 pub fn pictures() -> Result<()> {
     setup::run(Profile::Release)?;
     let (out, folder) = ("out/docs", Path::new("docs/pictures"));
@@ -40,7 +41,9 @@ pub fn pictures() -> Result<()> {
         copy(&format!("{id}-error"), &format!("{id}-error.png"))?;
     }
     println!("wrote {}", folder.display());
-    Ok(())
+    let mut gallery = shell::cargo();
+    gallery.args(["run", "--quiet", "--release", "--package", "umbrage", "--example", "gallery"]);
+    shell::run(gallery)
 }
 
 /// Compares all techniques on the scene of the README, files the numbers under `benchmarks/`, and

@@ -15,6 +15,7 @@
 pub mod adjacency;
 pub mod bounds;
 pub mod camera;
+pub mod columns;
 mod convex;
 pub mod coverage;
 pub mod facets;

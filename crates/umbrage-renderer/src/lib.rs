@@ -179,7 +179,7 @@ impl Renderer {
                 let view = scene.view(&lit.light);
                 let part = if self.clips_lights { view.lit_part() } else { Some(LitPart::ALL) };
                 let Some(part) = part else {
-                    lit.leave_out(&mut passes);
+                    lit.leave_out(&mut passes, self.one_target.is_some());
                     continue;
                 };
                 lit.is_left_out = false;

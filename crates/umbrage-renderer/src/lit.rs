@@ -68,10 +68,12 @@ impl Lit {
         Self { number, light, technique, target, is_left_out: false }
     }
 
-    /// Has its target say that it is all lit, and gives nothing, as it does where light ends.
-    pub fn leave_out(&mut self, passes: &mut Passes<'_>) {
+    /// Has its target say that it is all lit, and gives nothing, as it does where light ends. A
+    /// target that is shared is that of the others.
+    pub fn leave_out(&mut self, passes: &mut Passes<'_>, shares_visibility: bool) {
         if !std::mem::replace(&mut self.is_left_out, true) {
             let cleared = match &self.target {
+                Target::Visibility(..) if shares_visibility => return,
                 Target::Visibility(target, _) => target.overwrite(),
                 Target::Radiance(target, _) => target.overwrite(),
             };

@@ -42,8 +42,8 @@ impl Renderer {
     }
 
     /// From the next frame on all lights leave their visibility in one target, one after the other,
-    /// which takes the memory of one; what is read back is that of the last. `false`: each has its
-    /// own, as at the start.
+    /// which takes the memory of one; what is read back is that of the last one that lights
+    /// something seen. `false`: each has its own, as at the start.
     ///
     /// # Errors
     /// [`Error::Size`].

@@ -1,5 +1,6 @@
 //! The registry holds together. Needs no GPU.
 
+use base64::{Engine, prelude::BASE64_STANDARD};
 use std::collections::HashSet;
 use umbrage::core::{LightKind, LightKinds};
 use umbrage::{ParamKind, TechniqueInfo, find, techniques};
@@ -23,6 +24,32 @@ fn readmes_begin_with_their_technique() {
     for info in techniques() {
         assert!(info.readme.starts_with(&format!("# `{}`", info.id)), "{}: heading", info.id);
     }
+}
+
+/// The pictures of the documentation, drawn by the example `gallery`.
+const GALLERY: &str = include_str!("../src/techniques/gallery.txt");
+
+/// The bytes of each technique's picture, by what stands in the row of it.
+fn pictured(info: &TechniqueInfo) -> Vec<u8> {
+    let start = format!("| ![{}](data:image/png;base64,", info.id);
+    let module = info.id.replace('-', "_");
+    let end = format!(") | [`{}`](self::{module}): {} |", info.id, info.summary);
+    let mut rows = GALLERY.lines().filter_map(|row| row.strip_prefix(&*start)?.strip_suffix(&*end));
+    let row = rows.next().unwrap_or_else(|| panic!("{}: no row; run the example `gallery`", info.id));
+    BASE64_STANDARD.decode(row).unwrap_or_else(|e| panic!("{}: {e}", info.id))
+}
+
+#[test]
+fn the_documentation_has_a_picture_of_each_technique() {
+    assert_eq!(GALLERY.lines().count(), techniques().len() + 2, "rows of others; run the example `gallery`");
+    let mut seen = HashSet::new();
+    for info in techniques() {
+        let picture = umbrage_io::pictures::texture_from_bytes(info.id.as_ref(), &pictured(info)).unwrap();
+        assert_eq!((picture.width, picture.height), (200, 150), "{}", info.id);
+        seen.insert(picture.rgba);
+    }
+    // Some hard shadows are the same ones.
+    assert!(seen.len() > 12, "{} pictures", seen.len());
 }
 
 #[test]

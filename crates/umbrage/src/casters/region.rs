@@ -5,7 +5,8 @@ use umbrage_core::{Bounds, scene_tree::SceneTree};
 
 /// A cube around a scene. It depends on nothing but the box around everything, and hardly on that:
 /// it stays while casters come and go, until the box's longest edge crosses a power of two, or the
-/// box is elsewhere.
+/// box is elsewhere. That it goes by the past in nothing, not even to stay where a box swings about
+/// such a border, is what makes changed casters those of a new scene, to the bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Region {
     /// What GPU world space is relative to.

@@ -1,4 +1,8 @@
 //! The techniques that are built in: each is its folder and its line here, and nothing else.
+//!
+//! Thin things on a floor under a low sphere light, each technique at its defaults:
+//!
+#![doc = include_str!("gallery.txt")]
 
 use crate::technique::TechniqueInfo;
 

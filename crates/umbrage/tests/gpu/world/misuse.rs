@@ -45,6 +45,32 @@ fn handles_that_name_nothing_are_refused() {
 }
 
 #[test]
+fn a_texture_goes_when_no_material_has_it() {
+    let gpu = gpu();
+    let mut casters = Casters::empty(&gpu).unwrap();
+    let picture =
+        || Texture { name: "one".into(), width: 1, height: 1, rgba: vec![[9; 4]], sampling: Default::default() };
+    let texture = casters.add_texture(&picture()).unwrap();
+    let materials = [0, 1].map(|_| casters.add_material(&Material::default(), Some(texture)).unwrap());
+    assert!(text(casters.remove_texture(texture)).contains("2 materials have this texture"));
+    casters.remove_material(materials[0]).unwrap();
+    assert!(text(casters.remove_texture(texture)).contains("1 materials have this texture"));
+    casters.replace_material(materials[1], &Material::default(), None).unwrap();
+    casters.remove_texture(texture).unwrap();
+    // Its place is taken again, and its handle is not.
+    let other = casters.add_texture(&picture()).unwrap();
+    for refused in [
+        text(casters.remove_texture(texture)),
+        text(casters.add_material(&Material::default(), Some(texture))),
+        text(casters.replace_material(materials[1], &Material::default(), Some(texture))),
+    ] {
+        assert!(refused.contains("names no texture"), "{refused}");
+    }
+    casters.replace_material(materials[1], &Material::default(), Some(other)).unwrap();
+    assert!(text(casters.remove_texture(other)).contains("1 materials"));
+}
+
+#[test]
 fn what_is_not_finite_or_leads_nowhere_is_refused() {
     let gpu = gpu();
     let mut casters = Casters::empty(&gpu).unwrap();
