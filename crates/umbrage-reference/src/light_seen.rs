@@ -72,6 +72,13 @@ impl Tracer {
         Some(Blocker { distance: t * direction.length(), model: self.instance(triangle.id).model })
     }
 
+    /// Where the way from `origin` along `direction` first meets a casting triangle.
+    pub fn first_caster(&self, origin: DVec3, direction: DVec3) -> Option<DVec3> {
+        let ray = Ray { origin: origin - self.center, direction, t_min: 0.0, t_max: f64::INFINITY };
+        let (_, t) = self.casting().first(&ray, None, &self.cutouts)?;
+        Some(origin + direction * t)
+    }
+
     /// The light as `surface` sees it, `size` places across and down; `textures` are the scene's.
     /// Of lights without extent a dot in the middle of what is around it.
     pub fn light_seen(&self, surface: &Surface, light: &Light, textures: &[Texture], size: u32) -> LightSeen {

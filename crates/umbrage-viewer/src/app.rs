@@ -2,6 +2,7 @@
 
 use crate::MOST_PANES;
 use crate::link::{self, Linked};
+use crate::observe::Observe;
 use crate::pace::Pace;
 use crate::pane::{Pane, Shared};
 use crate::show::Show;
@@ -41,10 +42,11 @@ pub struct Lab {
     paint: RenderState,
     pub(crate) registry: Registry,
     show: Show,
+    observe: Observe,
     pub(crate) state: State,
     pub(crate) undo: Undo,
     pub(crate) stage: Option<Stage>,
-    stage_version: u64,
+    pub(crate) stage_version: u64,
     pub(crate) opening: Option<Opening>,
     /// To be taken over when its scene is open.
     linked: Option<Linked>,
@@ -81,6 +83,7 @@ impl Lab {
         }));
         let mut lab = Self {
             show: Show::new(&gpu),
+            observe: Observe::new(&gpu),
             gpu,
             paint,
             registry: registry.clone(),
@@ -238,6 +241,7 @@ impl Lab {
             gpu: &self.gpu,
             registry: &self.registry,
             show: &self.show,
+            observe: &self.observe,
             state,
             truth: &truth,
             truth_version: self.truth.version(),
@@ -281,6 +285,7 @@ impl Lab {
         let stage = Stage::new(&self.gpu, source, size)?;
         self.panes.iter_mut().for_each(Pane::forget);
         self.stage_version += 1;
+        self.face.see.mark = None;
         self.pace = Pace::default();
         self.truth.want(None);
         let scene = &stage.source.scene;
@@ -318,6 +323,7 @@ impl Lab {
             gpu: &self.gpu,
             registry: &self.registry,
             show: &self.show,
+            observe: &self.observe,
             state: &self.state,
             truth: &truth,
             truth_version: self.truth.version(),

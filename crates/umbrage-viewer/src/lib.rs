@@ -15,6 +15,8 @@ mod link;
 mod loupe;
 #[cfg(not(target_family = "wasm"))]
 mod native;
+mod observe;
+mod overlay;
 mod pace;
 mod pane;
 mod see;
@@ -29,6 +31,7 @@ mod undo;
 pub use app::{Lab, Options};
 #[cfg(not(target_family = "wasm"))]
 pub use native::{run, setup};
+pub use observe::OBSERVE;
 pub use see::Reading;
 pub use show::SHADER;
 pub use state::{Layout, PaneState, State};

@@ -129,6 +129,9 @@ pub(crate) fn texel_of(view: &LightView, point: DVec3) -> Option<DVec2> {
     Some(DVec2::new(ndc.x + 1.0, 1.0 - ndc.y) * (0.5 * f64::from(view.size)))
 }
 
+/// A pixel, and what is known of it; `None` where it shows nothing.
+pub(crate) type Held<'a> = ((u32, u32), Option<&'a Arc<Known>>);
+
 /// One place after the other, the newest that was asked for.
 #[derive(Default)]
 pub(crate) struct Loupe {
@@ -155,7 +158,7 @@ impl Loupe {
     }
 
     /// The newest that is known, and of which pixel; what is asked for now may still be under way.
-    pub fn known(&self) -> Option<((u32, u32), Option<&Arc<Known>>)> {
+    pub fn known(&self) -> Option<Held<'_>> {
         let (place, known) = self.found.as_ref()?;
         Some((place.pixel, known.as_ref()))
     }

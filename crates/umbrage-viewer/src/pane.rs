@@ -2,11 +2,13 @@
 
 use crate::later::Newest;
 use crate::loupe::Maps;
+use crate::observe::{self, Frozen, Observe};
 use crate::show::{FORMAT, Show, Way, truth_texture, upload};
 use crate::slow::{self, Slow};
 use crate::stage::Stage;
 use crate::state::{COLOR, ERROR, PaneState, State, VISIBILITY};
 use crate::truth::Traced;
+use crate::ui::over::is_overlooked;
 use eframe::egui;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -24,6 +26,8 @@ pub(crate) const HISTORY: usize = 200;
 struct Drawn {
     pane: PaneState,
     camera: Camera,
+    /// The camera that stands still while an observer looks on.
+    frozen: Option<Camera>,
     lights: Vec<(usize, Light)>,
     time_s: f64,
     size: (u32, u32),
@@ -50,6 +54,8 @@ pub(crate) struct Pane {
     pub id: egui::TextureId,
     made: Option<Made>,
     drawn: Option<Drawn>,
+    /// The same has to be drawn again: more is known of it.
+    is_stale: bool,
     /// Why there is no picture.
     pub error: Option<String>,
     pub stats: Stats,
@@ -74,6 +80,8 @@ pub(crate) struct Pane {
     slow: Slow,
     /// The maps of the main light, of the frame that is shown.
     pub maps: Arc<Maps>,
+    /// While an observer looks on.
+    frozen: Option<Frozen>,
 }
 
 /// What all panes share in a frame.
@@ -81,6 +89,7 @@ pub(crate) struct Shared<'a> {
     pub gpu: &'a Gpu,
     pub registry: &'a Registry,
     pub show: &'a Show,
+    pub observe: &'a Observe,
     pub state: &'a State,
     pub truth: &'a [Arc<Traced>],
     pub truth_version: u64,
@@ -106,6 +115,7 @@ impl Pane {
             id,
             made: None,
             drawn: None,
+            is_stale: false,
             error: None,
             stats: Stats::default(),
             counts: Vec::new(),
@@ -121,6 +131,7 @@ impl Pane {
             looking: Newest::default(),
             slow: Slow::default(),
             maps: Arc::default(),
+            frozen: None,
         }
     }
 
@@ -143,6 +154,7 @@ impl Pane {
     /// Drops what belongs to a scene that is no more.
     pub fn forget(&mut self) {
         (self.made, self.drawn, self.visibility, self.scores) = (None, None, None, None);
+        self.frozen = None;
         (self.stats, self.extremes) = (Stats::default(), None);
         self.counts.clear();
         self.times.clear();
@@ -158,6 +170,8 @@ impl Pane {
         let drawn = Drawn {
             pane: wanted.clone(),
             camera: state.eye().clone(),
+            // The truth is traced for who looks.
+            frozen: (state.observer.is_some() && wanted.technique != RAY_TRACED).then(|| state.camera.clone()),
             lights,
             time_s: state.time_s,
             size: self.size(),
@@ -166,7 +180,8 @@ impl Pane {
             truth: if shows_truth { shared.truth_version } else { 0 },
             stage: shared.stage_version,
         };
-        if self.drawn.as_ref() == Some(&drawn) && !always {
+        let is_stale = std::mem::take(&mut self.is_stale);
+        if self.drawn.as_ref() == Some(&drawn) && !always && !is_stale {
             return false;
         }
         let is_new = self
@@ -265,10 +280,11 @@ impl Pane {
         let is_inside = is_inside(shared.registry, &drawn.pane);
         renderer.inspect(main, is_inside.then_some(picture));
         renderer.set_clipping(!is_inside);
-        renderer.frame(&drawn.camera).map_err(text)?;
+        let fitted = drawn.frozen.as_ref().unwrap_or(&drawn.camera);
+        renderer.frame(fitted).map_err(text)?;
         self.stats = renderer.stats(main);
         self.counts = renderer.counts(main);
-        self.keep_maps(stage, main, &drawn.camera);
+        self.keep_maps(stage, main, fitted);
         let renderer = &mut stage.renderer;
         self.prepare_ms = renderer.prepare_ms();
         self.times = renderer.times();
@@ -277,9 +293,44 @@ impl Pane {
             self.history.push_back(of_lights.map(|t| t.time_ms as f32).sum());
             self.history.drain(..self.history.len().saturating_sub(HISTORY));
         }
-        self.copy(shared, stage, drawn, main)?;
+        if let Some(frozen) = drawn.frozen.as_ref().filter(|_| is_overlooked(picture)) {
+            return self.overlook(shared, stage, drawn, main, frozen);
+        }
+        self.frozen = None;
+        self.copy(shared, stage, drawn, main, fitted)?;
         self.read(shared, stage, main);
         Ok(())
+    }
+
+    /// Draws what the frame for the frozen camera has found as the observer sees it.
+    fn overlook(
+        &mut self,
+        shared: &Shared<'_>,
+        stage: &mut Stage,
+        drawn: &Drawn,
+        main: usize,
+        frozen: &Camera,
+    ) -> Result<(), String> {
+        // What pixels hold is of no picture that is shown.
+        (self.visibility, self.scores) = (None, None);
+        let gpu = shared.gpu;
+        let numbers: Vec<usize> = drawn.lights.iter().map(|(number, _)| *number).collect();
+        if self.frozen.as_ref().is_none_or(|frozen| !frozen.fits(&numbers, drawn.size)) {
+            let like = stage.renderer.visibility_texture(main).map_err(|e| e.to_string())?;
+            self.frozen = Some(Frozen::new(gpu, &stage.renderer, &numbers, like)?);
+        }
+        let Some(kept) = &mut self.frozen else { return Ok(()) };
+        let is_error = drawn.pane.picture == ERROR;
+        let truth = shared.main_truth().filter(|_| is_error).map(|truth| &**truth);
+        let view = observe::View {
+            observer: &drawn.camera,
+            frozen,
+            picture: if is_error { 2.0 } else { f32::from(u8::from(drawn.pane.picture == VISIBILITY)) },
+            gain: drawn.gain,
+            truth: &truth_view(gpu, truth, drawn.size),
+            pane: &self.view,
+        };
+        shared.observe.draw(gpu, &mut stage.renderer, main, kept, &view)
     }
 
     /// Remembers where the maps of the frame lie; another memory only where they do elsewhere.
@@ -300,7 +351,14 @@ impl Pane {
     }
 
     /// Brings what the frame has left into the pane's own picture.
-    fn copy(&mut self, shared: &Shared<'_>, stage: &Stage, drawn: &Drawn, main: usize) -> Result<(), String> {
+    fn copy(
+        &mut self,
+        shared: &Shared<'_>,
+        stage: &Stage,
+        drawn: &Drawn,
+        main: usize,
+        camera: &Camera,
+    ) -> Result<(), String> {
         let gpu = shared.gpu;
         let renderer = &stage.renderer;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -333,7 +391,7 @@ impl Pane {
                 self.look(gpu, renderer.depth_texture(), 0);
             }
             other if slow::is_slow(other) => {
-                self.slow.ask(other, shared, stage, main, drawn.size, &drawn.camera)?;
+                self.slow.ask(other, shared, stage, main, drawn.size, camera)?;
             }
             other => {
                 let technique = renderer.technique(main).ok_or("no light shines")?;
@@ -374,6 +432,7 @@ impl Pane {
         if self.extremes.is_none() && !self.looking.is_under_way() {
             let (gpu, texture) = (gpu.clone(), texture.clone());
             let found = self.looking.ask(async move { read::later::one_channel(&gpu, &texture, layer).await });
+            self.is_stale |= found.is_some();
             self.extremes = found.and_then(Result::ok).map(|image| extremes(&image));
         }
     }
@@ -411,9 +470,7 @@ impl Pane {
             changed |= self.slow.was_stale();
         }
         self.score(shared);
-        if changed {
-            self.drawn = None;
-        }
+        self.is_stale |= changed;
         changed
     }
 

@@ -11,6 +11,7 @@ mod on_screen;
 mod paraboloid;
 mod parallel;
 mod perspective;
+mod ray;
 mod rect;
 mod warp;
 

@@ -12,8 +12,9 @@ use umbrage_report::RAY_TRACED;
 const SPEED: f64 = 0.6;
 
 /// What hands can do, as the help shows it.
-const HELP: [(&str, &str); 22] = [
+const HELP: [(&str, &str); 23] = [
     ("left drag", "turns the scene"),
+    ("left click", "marks a point in all panes: in the scene, and its texel in maps"),
     ("shift + left drag", "looks around"),
     ("middle drag", "moves the light at constant height; turns the sun"),
     ("right click", "menu of all techniques"),
@@ -125,7 +126,8 @@ fn copy_camera(lab: &mut Lab, context: &egui::Context) {
 }
 
 fn close(lab: &mut Lab, context: &egui::Context) {
-    if lab.face.search.take().is_some() || std::mem::take(&mut lab.face.shows_help) {
+    let has_mark = |lab: &mut Lab| lab.face.see.mark.take().is_some();
+    if lab.face.search.take().is_some() || std::mem::take(&mut lab.face.shows_help) || has_mark(lab) {
         return;
     }
     if cfg!(not(target_family = "wasm")) && !egui::Popup::is_any_open(context) {

@@ -1,5 +1,6 @@
 //! The loupe: the pixel under the cursor, all that is known of it, and the light as it sees it.
 
+use super::over;
 use crate::app::Lab;
 use crate::loupe::{Known, Place, Texel};
 use crate::pane::Pane;
@@ -51,6 +52,9 @@ pub(super) fn show(lab: &mut Lab, context: &egui::Context) {
 
 fn under_cursor(lab: &Lab) -> Option<(usize, (u32, u32))> {
     let (number, share) = lab.face.cursor?;
+    if !over::is_of_screen(lab, number, &lab.state.panes.get(number)?.picture) {
+        return None;
+    }
     let (width, height) = lab.panes.get(number)?.size();
     let of = |share: f32, length: u32| ((share * length as f32).max(0.0) as u32).min(length - 1);
     Some((number, (of(share[0], width), of(share[1], height))))
@@ -58,10 +62,11 @@ fn under_cursor(lab: &Lab) -> Option<(usize, (u32, u32))> {
 
 fn place(lab: &Lab, (number, pixel): (usize, (u32, u32))) -> Option<Place> {
     let (stage, pane) = (lab.stage.as_ref()?, lab.panes.get(number)?);
+    let is_overlooked = over::is_overlooked(&lab.state.panes.get(number)?.picture);
     Some(Place {
         tracer: stage.tracer.clone()?,
         textures: stage.textures.clone(),
-        camera: lab.state.eye().clone(),
+        camera: if is_overlooked { lab.state.eye().clone() } else { lab.state.camera.clone() },
         size: pane.size(),
         pixel,
         light: lab.state.main_light()?.clone(),

@@ -4,6 +4,7 @@ mod bar;
 mod keys;
 mod light;
 mod loupe;
+pub(crate) mod over;
 mod panes;
 mod settings;
 mod statistics;
@@ -123,6 +124,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut egui::Ui, passed_s: f64) {
     }
     egui::CentralPanel::no_frame().show(ui, |ui| panes::show(lab, ui));
     loupe::show(lab, ui.ctx());
+    over::window(lab, ui.ctx());
     keys::help(lab, ui.ctx());
     bar::search(lab, ui.ctx());
     if lab.face.turns {

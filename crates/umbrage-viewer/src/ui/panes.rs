@@ -1,6 +1,6 @@
 //! The pictures, and what the mouse does on them.
 
-use super::bar;
+use super::{bar, over};
 use crate::app::Lab;
 use crate::camera;
 use crate::state::Layout;
@@ -80,6 +80,7 @@ fn pane(lab: &mut Lab, ui: &mut egui::Ui, number: usize, cell: Rect, part: Rect)
             painter.galley(part.center() - text.size() * 0.5, text, Color32::LIGHT_RED);
         }
     }
+    over::draw(lab, &painter, number, cell);
     if lab.face.shows_text {
         let name = format!("{}\n{}", wanted.technique, wanted.picture);
         let place = part.left_top() + Vec2::splat(6.0);
@@ -97,6 +98,9 @@ fn pane(lab: &mut Lab, ui: &mut egui::Ui, number: usize, cell: Rect, part: Rect)
 fn take(lab: &mut Lab, ui: &egui::Ui, number: usize, cell: Rect, response: &egui::Response) {
     if response.clicked() || response.drag_started() || response.secondary_clicked() {
         lab.face.active = number;
+    }
+    if let Some(at) = response.interact_pointer_pos().filter(|_| response.clicked()) {
+        over::click(lab, number, at, cell);
     }
     response.context_menu(|ui| {
         lab.face.active = number;
