@@ -421,6 +421,29 @@ impl Lab {
         Some(link::write(&self.state, &self.stage.as_ref()?.source.scene))
     }
 
+    /// The command that takes the picture of a pane; `None` while no scene is open.
+    pub fn command(&self, pane: usize) -> Option<String> {
+        let stage = self.stage.as_ref()?;
+        let samples = Some(self.truth_samples().max(1));
+        Some(link::command(
+            &self.state,
+            self.state.panes.get(pane)?,
+            &stage.source.scene,
+            stage.renderer.size(),
+            samples,
+        ))
+    }
+
+    /// The picture of a pane as it is seen; waits for the device.
+    ///
+    /// # Errors
+    /// [`umbrage::Error::Scene`] where there is no such pane, and what reading gives.
+    #[cfg(not(target_family = "wasm"))]
+    pub fn picture(&self, pane: usize) -> Result<umbrage_core::Image<[u8; 4]>, umbrage::Error> {
+        let none = || umbrage::Error::Scene(format!("there is no pane {pane}"));
+        umbrage::read::rgba8(&self.gpu, &self.panes.get(pane).ok_or_else(none)?.texture)
+    }
+
     /// A file is being written.
     fn is_keeping(&self) -> bool {
         #[cfg(not(target_family = "wasm"))]

@@ -214,8 +214,7 @@ fn keep_menu(lab: &mut Lab, ui: &mut egui::Ui) {
         copied = Some(link::write(state, scene));
     }
     if ui.button("Copy as command").on_hover_text("`umbrage render` with the same picture, to the byte").clicked() {
-        let samples = lab.truth.of(state.light.unwrap_or_default()).map(|truth| truth.samples.max(1));
-        copied = Some(link::command(state, pane, scene, stage.renderer.size(), samples));
+        copied = lab.command(lab.face.active);
     }
     if let Some(line) = link::rust(pane)
         && ui.button("Copy as Rust").on_hover_text("The line of a program that makes this technique").clicked()

@@ -127,6 +127,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut egui::Ui, passed_s: f64) {
     over::window(lab, ui.ctx());
     keys::help(lab, ui.ctx());
     bar::search(lab, ui.ctx());
+    status::messages(lab, ui.ctx());
     if lab.face.turns {
         let turn = umbrage_core::glam::DVec2::new(passed_s * 0.05, 0.0);
         crate::camera::orbit(&mut lab.state.camera, turn);

@@ -3,4 +3,5 @@
 mod common;
 mod first;
 mod see;
+mod keep;
 mod walk;
