@@ -16,6 +16,7 @@ mod soak;
 mod tables;
 mod test;
 mod validation;
+mod window;
 
 use anyhow::{Result, bail};
 use std::process::ExitCode;
@@ -31,6 +32,7 @@ cargo xtask COMMAND
   package check that a registry would take the library's crates
   browser compile every shader in Chromium, whose compiler of WGSL is another one than wgpu's, and draw a picture with
           every technique there
+  window  open the laboratory on a virtual screen and use it with real keys and a real mouse (Debian, Ubuntu)
   soak MINUTES
           draw with all techniques while everything changes: memory has to stay level, and pictures right
   validation
@@ -74,6 +76,7 @@ fn run() -> Result<()> {
         ["browser"] => browser::run(),
         ["soak", minutes] => soak::run(minutes),
         ["validation"] => validation::run(),
+        ["window"] => window::run(),
         ["bench"] => bench::run(),
         ["bevy"] => bevy::run(),
         ["fuzz", minutes] => fuzz::run(minutes),

@@ -18,6 +18,8 @@ use umbrage::{Gpu, Owner, Registry};
 use umbrage_report::{RAY_TRACED, Source};
 use web_time::{Duration, Instant};
 
+/// After which pictures are drawn as fine as one frame can be.
+const REST: Duration = Duration::from_millis(600);
 /// How names of files end that are scenes.
 const SCENE_FILES: [&str; 4] = [".toml", ".gltf", ".glb", ".obj"];
 
@@ -56,6 +58,8 @@ pub struct Lab {
     /// What is not part of the state: what is chosen, what is open.
     pub(crate) face: Face,
     last_frame: Instant,
+    /// The state of the last frame, and since when it is so.
+    changed: (Option<State>, Instant),
     /// What the driver has said that nobody asked for.
     trouble: Arc<Mutex<Option<String>>>,
     is_lost: bool,
@@ -98,6 +102,7 @@ impl Lab {
             pace: Pace::default(),
             face: Face::new(&context.egui_ctx),
             last_frame: Instant::now(),
+            changed: (None, Instant::now()),
             trouble,
             is_lost: false,
             #[cfg(target_family = "wasm")]
@@ -159,6 +164,9 @@ impl Lab {
         self.poll();
         self.take();
         crate::ui::show(self, ui, passed.as_secs_f64());
+        if self.changed.0.as_ref() != Some(&self.state) {
+            self.changed = (Some(self.state.clone()), Instant::now());
+        }
         self.draw();
         self.want_truth();
         #[cfg(not(target_family = "wasm"))]
@@ -305,8 +313,7 @@ impl Lab {
 
     /// Draws the panes that have changed.
     fn draw(&mut self) {
-        let size = self.face.picture_size(self.state.divisor.unwrap_or(self.pace.divisor()));
-        let Some(size) = size else { return };
+        let Some(size) = self.face.picture_size(self.divisor()) else { return };
         while self.panes.len() < self.state.panes.len() {
             self.panes.push(Pane::new(&self.gpu, &self.paint, size));
         }
@@ -339,9 +346,20 @@ impl Lab {
                 all = false;
             }
         }
-        if all {
+        if all && !self.is_at_rest() {
             self.pace.took(took);
         }
+    }
+
+    /// Pixels of the window for each pixel of pictures, now.
+    pub(crate) fn divisor(&self) -> u32 {
+        let paced = if self.is_at_rest() { self.pace.at_rest() } else { self.pace.divisor() };
+        self.state.divisor.unwrap_or(paced)
+    }
+
+    /// Nothing has changed for a while.
+    fn is_at_rest(&self) -> bool {
+        !self.face.is_moving() && !self.face.draws_always && self.changed.1.elapsed() >= REST
     }
 
     /// Has the truth traced that panes show or are compared with.
@@ -389,7 +407,12 @@ impl Lab {
     fn last_to_do(&self, context: &egui::Context) {
         if self.face.is_moving() || self.face.draws_always || self.panes.iter().any(Pane::is_waiting) {
             context.request_repaint();
-        } else if self.opening.is_some() || self.truth.is_under_way() || self.is_keeping() {
+            return;
+        }
+        if !self.is_at_rest() {
+            context.request_repaint_after(REST.saturating_sub(self.changed.1.elapsed()));
+        }
+        if self.opening.is_some() || self.truth.is_under_way() || self.is_keeping() {
             context.request_repaint_after(Duration::from_millis(60));
         }
     }

@@ -4,6 +4,8 @@
 const DIVISORS: [u32; 6] = [1, 2, 3, 4, 6, 8];
 /// GPU time of all panes together that still lets the window answer at once, milliseconds.
 const GOAL_MS: f64 = 40.0;
+/// The same of a picture that is drawn once, when hands rest.
+const REST_MS: f64 = 800.0;
 /// A finer picture has to promise to stay this far below the goal, lest sizes go back and forth.
 const RESERVE: f64 = 0.6;
 
@@ -27,6 +29,12 @@ impl Pace {
     /// The divisor now.
     pub fn divisor(&self) -> u32 {
         self.divisor
+    }
+
+    /// The divisor for a picture that stays, which may take its time.
+    pub fn at_rest(&self) -> u32 {
+        let cost = self.cost.unwrap_or_default();
+        DIVISORS.into_iter().find(|d| cost / f64::from(d * d) <= REST_MS).unwrap_or(self.divisor).min(self.divisor)
     }
 
     /// Takes a frame into account that took `ms` for all panes together.
@@ -71,6 +79,16 @@ mod tests {
     #[test]
     fn pictures_get_as_small_as_they_have_to() {
         assert_eq!([1.0, 39.0, 100.0, 300.0, 1e6].map(rest), [1, 1, 2, 3, 8]);
+    }
+
+    #[test]
+    fn at_rest_pictures_are_as_fine_as_one_frame_can_be() {
+        let mut pace = Pace::default();
+        (0..100).for_each(|_| pace.took(300.0 / f64::from(pace.divisor() * pace.divisor())));
+        assert_eq!((pace.divisor(), pace.at_rest()), (3, 1));
+        let mut pace = Pace::default();
+        (0..100).for_each(|_| pace.took(5000.0 / f64::from(pace.divisor() * pace.divisor())));
+        assert_eq!(pace.at_rest(), 3);
     }
 
     #[test]

@@ -32,7 +32,7 @@ pub(super) fn show(lab: &mut Lab, ui: &mut egui::Ui) {
     ui.separator();
     ui.heading("Picture");
     let (width, height) = pane.size();
-    let divisor = lab.state.divisor.unwrap_or(lab.pace.divisor());
+    let divisor = lab.divisor();
     ui.label(format!("{width} × {height} pixels, 1 of {} of the window's", divisor * divisor));
     let mut chosen = lab.state.divisor;
     egui::ComboBox::from_label("resolution").selected_text(resolution(chosen)).show_ui(ui, |ui| {
