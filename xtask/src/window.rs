@@ -38,7 +38,7 @@ pub fn run() -> Result<()> {
     let mut window = Running(open(program, &folder)?);
     let id = wait("the window", || hands(&["search", "--name", "umbrage"]).ok().filter(|id| !id.is_empty()))?;
     let id = id.lines().next().unwrap_or_default().to_string();
-    hands(&["windowfocus", "--sync", &id])?;
+    focus(&id)?;
     hands(&["mousemove", "600", "400"])?;
     use_it(&id)?;
     // The next technique has to be the one that the snapshot is of.
@@ -68,8 +68,13 @@ fn use_it(id: &str) -> Result<()> {
     hands(&["windowunmap", id])?;
     sleep(Duration::from_millis(300));
     hands(&["windowmap", id])?;
-    hands(&["windowfocus", "--sync", id])?;
+    focus(id)?;
     hands(&["mousemove", "600", "400"]).map(|_| ())
+}
+
+/// Gives the window the keys, once it is on the screen.
+fn focus(id: &str) -> Result<()> {
+    wait("the window on the screen", || hands(&["windowfocus", id]).ok()).map(|_| ())
 }
 
 /// Takes a snapshot and returns its name, which begins with `technique`.

@@ -127,7 +127,7 @@ impl Lab {
     }
 
     /// Opens a scene, as users name it.
-    pub(crate) fn open(&mut self, name: &str) {
+    pub fn open(&mut self, name: &str) {
         let asked = name.to_string();
         self.opening = Some(Opening::start(name, move || Source::open(&asked).map_err(|e| e.to_string())));
     }
@@ -136,7 +136,7 @@ impl Lab {
     ///
     /// # Errors
     /// A sentence: it is none.
-    pub(crate) fn follow(&mut self, link: &str) -> Result<(), String> {
+    pub fn follow(&mut self, link: &str) -> Result<(), String> {
         let linked = link::read(link)?;
         let scene = linked.scene().to_string();
         self.linked = Some(linked);
@@ -427,6 +427,29 @@ impl Lab {
         if let Some(pane) = self.state.panes.get_mut(pane) {
             pane.picture = picture.into();
         }
+    }
+
+    /// Has another technique work for a pane, written with its settings as on the command line.
+    pub fn set_technique(&mut self, pane: usize, technique: &str) {
+        if let Some(pane) = self.state.panes.get_mut(pane) {
+            pane.technique = technique.into();
+        }
+    }
+
+    /// The device that everything is drawn with.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Pixels of each pane's picture across and down.
+    pub fn picture_size(&self) -> (u32, u32) {
+        self.panes.first().map_or((0, 0), Pane::size)
+    }
+
+    /// GPU time of the newest frame, all panes together, milliseconds; 0 where the adapter keeps no
+    /// time.
+    pub fn frame_ms(&self) -> f64 {
+        self.panes.iter().flat_map(|pane| &pane.times).map(|time| time.time_ms).sum()
     }
 
     /// Pixels of the window for each pixel of pictures; `None`: as the adapter can.

@@ -247,6 +247,8 @@ enum Found {
     Scene(&'static str),
     Picture(&'static str),
     Setting(&'static str),
+    /// A permalink that was pasted.
+    Link,
 }
 
 /// The window of the search, where it is open.
@@ -254,25 +256,38 @@ pub(super) fn search(lab: &mut Lab, context: &egui::Context) {
     let Some(mut text) = lab.face.search.clone() else { return };
     let (mut is_open, mut chosen) = (true, None);
     egui::Window::new("Find").open(&mut is_open).collapsible(false).show(context, |ui| {
-        let field = ui.add(egui::TextEdit::singleline(&mut text).hint_text("technique, scene, picture, setting"));
+        let hint = "technique, scene, picture, setting, or a permalink";
+        let field = ui.add(egui::TextEdit::singleline(&mut text).hint_text(hint));
+        // The first that is found is what Return chooses.
+        let mut is_chosen = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
         field.request_focus();
         for (found, name, about) in finds(lab, &text).into_iter().take(12) {
-            if ui.selectable_label(false, name).on_hover_text(about).clicked() {
+            let is_clicked = ui.selectable_label(false, name).on_hover_text(about).clicked();
+            if is_clicked || std::mem::take(&mut is_chosen) {
                 chosen = Some(found);
             }
         }
     });
+    let link = text.clone();
     lab.face.search = (is_open && chosen.is_none()).then_some(text);
     match chosen {
         Some(Found::Technique(id)) => choose_technique(lab, id),
         Some(Found::Scene(id)) => lab.open(id),
         Some(Found::Picture(name)) => lab.state.panes[lab.face.active].picture = name.into(),
+        Some(Found::Link) => {
+            if let Err(error) = lab.follow(&link) {
+                lab.face.say(error);
+            }
+        }
         Some(Found::Setting(name)) => lab.face.say(format!("`{name}` is at the left")),
         None => {}
     }
 }
 
 fn finds(lab: &Lab, text: &str) -> Vec<(Found, String, String)> {
+    if link::read(text).is_ok() {
+        return vec![(Found::Link, "Open this permalink".into(), "Scene, camera, lights, panes".into())];
+    }
     let text = text.trim().to_lowercase();
     let mut found = Vec::new();
     let mut add = |what, name: &str, kind: &str, about: &str| {
