@@ -4,7 +4,7 @@ use crate::shell;
 use anyhow::Result;
 
 /// Those that nobody builds on.
-const NOT_PUBLISHED: [&str; 2] = ["umbrage-cli", "xtask"];
+const NOT_PUBLISHED: [&str; 3] = ["umbrage-cli", "umbrage-viewer", "xtask"];
 
 /// Packs every crate as a registry would get it. That the packed crates compile is not tried: their
 /// files are those of the workspace, which everything else here compiles.

@@ -101,10 +101,29 @@ fn the_renderer_knows_no_window_no_command_line_and_no_file_format() {
 #[test]
 fn the_command_holds_no_algorithm() {
     let metadata = metadata();
-    let allowed = ["umbrage", "umbrage-core", "umbrage-report", "anyhow", "clap", "indicatif", "serde_json"];
+    let allowed =
+        ["umbrage", "umbrage-core", "umbrage-report", "umbrage-viewer", "anyhow", "clap", "indicatif", "serde_json"];
     let found = direct(package(&metadata, "umbrage-cli"));
     let wrong: Vec<_> = found.iter().filter(|name| !allowed.contains(&name.as_str())).collect();
     assert!(wrong.is_empty(), "umbrage-cli only passes things on; {wrong:?} belong into umbrage-report or below it");
+}
+
+#[test]
+fn the_laboratory_names_no_technique() {
+    let ids: Vec<String> = fs::read_dir(workspace().join("crates/umbrage/src/techniques"))
+        .expect("techniques")
+        .flatten()
+        .filter(|entry| entry.path().is_dir())
+        .map(|entry| entry.file_name().to_string_lossy().replace('_', "-"))
+        .collect();
+    assert!(ids.len() > 2, "there are techniques to check: {ids:?}");
+    for (path, text) in sources("crates/umbrage-viewer/src") {
+        // Tests and the first pane of all have to name one.
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        for id in ids.iter().filter(|id| *id != "pcf") {
+            assert!(!code.contains(&format!("\"{id}")), "{path} names the technique {id}");
+        }
+    }
 }
 
 #[test]

@@ -398,7 +398,7 @@ impl Pane {
                 let views = technique.inside().debug_views();
                 let view = views.iter().find(|v| v.name == other).ok_or_else(|| {
                     let names: Vec<_> = views.iter().map(|v| v.name).collect();
-                    let names = if names.is_empty() { "none".into() } else { names.join(", ") };
+                    let names = if names.is_empty() { "no views at all".into() } else { names.join(", ") };
                     format!("there is no `{other}` of this light; its views: {names}")
                 })?;
                 let is_color = view.texture.format().components() == 4;

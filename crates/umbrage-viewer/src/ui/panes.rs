@@ -14,6 +14,7 @@ const GRIP: f32 = 6.0;
 
 pub(super) fn show(lab: &mut Lab, ui: &mut egui::Ui) {
     let area = ui.max_rect();
+    ui.painter().rect_filled(area, 0.0, Color32::from_gray(14));
     let cells = cells(area, lab.state.panes.len(), lab.state.layout);
     let scale = ui.ctx().pixels_per_point();
     lab.face.cell = cells.first().map(|cell| (cell.size() * scale).into());

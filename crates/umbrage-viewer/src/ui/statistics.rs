@@ -35,11 +35,13 @@ pub(super) fn show(lab: &mut Lab, ui: &mut egui::Ui) {
     let divisor = lab.divisor();
     ui.label(format!("{width} × {height} pixels, 1 of {} of the window's", divisor * divisor));
     let mut chosen = lab.state.divisor;
-    egui::ComboBox::from_label("resolution").selected_text(resolution(chosen)).show_ui(ui, |ui| {
+    let label = ui.label("resolution").id;
+    let list = egui::ComboBox::from_id_salt("resolution").selected_text(resolution(chosen)).show_ui(ui, |ui| {
         for divisor in [None, Some(1), Some(2), Some(4), Some(8)] {
             ui.selectable_value(&mut chosen, divisor, resolution(divisor));
         }
     });
+    list.response.labelled_by(label);
     lab.state.divisor = chosen;
     ui.add(egui::Slider::new(&mut lab.state.gain, crate::GAINS[0]..=crate::GAINS[1]).logarithmic(true).text("error ×"));
     range(lab, ui);
