@@ -3,6 +3,6 @@
 mod bad;
 mod common;
 mod first;
-mod see;
 mod keep;
+mod see;
 mod walk;
