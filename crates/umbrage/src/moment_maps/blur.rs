@@ -17,6 +17,8 @@ pub(super) struct Blur {
     pub(super) variance: f64,
 }
 
+/// The most often that moments are halved in the pass that takes them.
+pub(super) const AT_ONCE: u32 = 2;
 /// Texels that are left of a map at least.
 const LEAST_SIZE: u32 = 4;
 /// Of three taps with the B-spline after them; wider ones would have a dent in the middle.
@@ -53,6 +55,11 @@ impl Blur {
     /// map.
     pub(super) fn is_in_take(&self) -> bool {
         self.level == 0 && self.taps[1] > 0.0
+    }
+
+    /// Texels of the map that moments are taken from at once.
+    pub(super) fn texels_taken(&self) -> u64 {
+        if self.is_in_take() { 9 } else { 1 << (2 * self.level.min(AT_ONCE)) }
     }
 
     /// Whether a blur across and one down follow.

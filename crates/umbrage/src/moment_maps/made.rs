@@ -1,7 +1,7 @@
 //! The textures of a light's moments, and the passes that fill each layer in order.
 
-use super::blur::Blur;
-use super::pipelines::{AT_ONCE, Pipelines, Step};
+use super::blur::{AT_ONCE, Blur};
+use super::pipelines::{Pipelines, Step};
 use crate::fullscreen::target_texture;
 use crate::gpu::Gpu;
 

@@ -17,7 +17,7 @@ use crate::inline::{Binding, Resource};
 use crate::shader::{Shared, shader_struct};
 use crate::{choices, settings};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View};
-use blur::Blur;
+use blur::{AT_ONCE, Blur};
 use made::Made;
 use pipelines::Pipelines;
 pub(crate) use recipe::{Coding, Recipe};
@@ -124,6 +124,22 @@ impl MomentStage {
         }
     }
 
+    /// Bytes of a texel of moments.
+    fn texel_bytes(&self) -> u64 {
+        self.pipelines.format.block_copy_size(None).unwrap_or(16).into()
+    }
+
+    /// What a look-up reads: 3 × 3 texels of two levels.
+    pub(crate) fn lookup_bytes(&self) -> u64 {
+        2 * 9 * self.texel_bytes()
+    }
+
+    /// What a look-up reads that follows the light, by so many taps of the search and so many of
+    /// the filter, which take four texels each.
+    pub(crate) fn soft_lookup_bytes(&self, search: u32, filter: u32) -> u64 {
+        4 * u64::from(search + 1) + TapStage::BOUNDS_BYTES + 4 * u64::from(filter) * self.texel_bytes()
+    }
+
     /// How far the filter reaches, texels.
     pub(crate) fn reach(&self) -> f64 {
         3.0 * self.blur.variance.sqrt()
@@ -197,6 +213,17 @@ impl Stage for MomentStage {
 
     fn bind_group(&self) -> Option<&wgpu::BindGroup> {
         self.bind_group.as_ref()
+    }
+
+    fn reads(&self, pass: &str) -> Option<u64> {
+        let texel = self.texel_bytes();
+        match pass {
+            // From the map, or from finer moments.
+            "moments" => Some(self.blur.texels_taken().max(if self.blur.level > AT_ONCE { texel } else { 0 }) * 4),
+            "blur" => Some(5 * texel),
+            "mips" => Some(4 * texel),
+            _ => None,
+        }
     }
 
     fn lends(&self) -> Option<Vec<Binding>> {

@@ -1,12 +1,9 @@
 //! The full-screen passes of `moments_passes.wgsl`.
 
-use super::blur::Blur;
+use super::blur::{AT_ONCE, Blur};
 use super::recipe::Recipe;
 use crate::fullscreen::{self, Fullscreen, UNIFORM, bind, layout};
 use crate::gpu::Gpu;
-
-/// The most often that moments are halved in the pass that takes them.
-pub(super) const AT_ONCE: u32 = 2;
 
 /// What a pass does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

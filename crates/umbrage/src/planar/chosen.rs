@@ -2,10 +2,12 @@
 
 use super::MOST;
 use super::lit::{Between, LitPlane};
+use super::outline::Shadow;
 use super::screen::{Clipper, Screen};
 use super::seen::SeenPlanes;
-use crate::casters::{Casters, DrawList, Form, InstanceNumbers, Surface};
+use crate::casters::{Casters, DrawList, Form, InstanceNumbers, Light, Placed, Surface};
 use crate::{gpu::Gpu, passes::Passes, view::View};
+use umbrage_core::glam::{DVec2, DVec3};
 
 /// What of a scene a technique wants.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,8 +27,10 @@ pub(crate) struct Chosen {
     planes: Vec<LitPlane>,
     /// Planes that the light shines on from behind.
     behind: Vec<LitPlane>,
-    /// By plane: the pixels that may be in shadow; then those of the planes behind.
+    /// By plane: the pixels that may be in shadow.
     rects: Vec<[u32; 4]>,
+    /// Around the planes behind, on the screen.
+    quads: Vec<[DVec2; 4]>,
     clipper: Clipper,
     lists: Vec<DrawList>,
     numbers: InstanceNumbers,
@@ -48,6 +52,9 @@ struct Tally {
 /// More casters than this are not worth looking at to see where their shadows end.
 const MOST_ENCLOSED: usize = 256;
 
+/// Shadows of fewer pixels are not worth their draws.
+const LEAST_AREA: f64 = 1.0;
+
 /// For each plane that is wanted, so many are searched for casters.
 const SEARCHED: usize = 4;
 
@@ -59,6 +66,7 @@ impl Chosen {
         self.planes.clear();
         self.behind.clear();
         self.rects.clear();
+        self.quads.clear();
         self.tally = Tally::default();
         let casters = view.casters;
         if !view.light.casts || casters.casting().is_empty() {
@@ -69,6 +77,7 @@ impl Chosen {
         self.lists.resize_with(most, DrawList::default);
         self.numbers.clear(gpu, casters, most as u32);
         let (origin, mut light) = (casters.origin(), view.light.shape.center());
+        let of_scene = Light { center: light, receivers: casters.receivers_bounds() };
         light -= (origin * light.w).extend(0.0);
         let eye = view.camera.eye - origin;
         let least = casters.receiver_planes().flatness() + wanted.tolerance;
@@ -94,19 +103,23 @@ impl Chosen {
             }
             let margin = margin(&lit);
             lit.grow(margin);
-            find(casters, &mut lit, wanted.cull, &mut self.found, &mut self.pierced);
+            find(casters, &of_scene, &mut lit, wanted.cull, [&mut self.found, &mut self.pierced]);
             let list = &mut self.lists[self.planes.len()];
             self.numbers.list(casters, &self.found, None, Some(&self.pierced), list);
-            // What falls beside the screen shadows nothing, unless it is blurred into it.
+            // What falls beside the screen shadows nothing, unless it is blurred into it; where a
+            // wall stands in the floor, a strip under the floor is in the floor's shadow.
             let around = lit.corners(lit.low - margin, lit.high + margin);
-            if list.draws() == 0 || self.clipper.clip(&screen, around).len() < 3 {
+            if list.draws() == 0 || screen.area(self.clipper.clip(&screen, around)) < LEAST_AREA {
                 self.tally.unshadowed += 1;
             } else {
                 self.planes.push(lit);
             }
         }
-        for plane in self.planes.iter().chain(&self.behind) {
-            self.rects.push(screen.rect(self.clipper.clip(&screen, plane.corners(plane.low, plane.high))));
+        let mut rect = |corners| screen.rect(self.clipper.clip(&screen, corners));
+        self.rects.extend(self.planes.iter().map(|plane| rect(plane.corners(plane.low, plane.high))));
+        for plane in &self.behind {
+            let corners = plane.corners(plane.low, plane.high);
+            self.quads.push(screen.quad(&corners.map(|(p, _)| p), rect(corners)));
         }
     }
 
@@ -120,10 +133,14 @@ impl Chosen {
         &self.behind
     }
 
-    /// Where on the screen shadows of each plane may be: x, y, width, height in pixels; then where
-    /// the planes behind are.
+    /// Where on the screen shadows of each plane may be: x, y, width, height in pixels.
     pub fn rects(&self) -> &[[u32; 4]] {
         &self.rects
+    }
+
+    /// Quads around the planes behind, in normalised device coordinates.
+    pub fn quads(&self) -> &[[DVec2; 4]] {
+        &self.quads
     }
 
     /// Casters that may shadow a plane, by its number in [`Chosen::planes`].
@@ -171,21 +188,58 @@ impl Chosen {
 
 /// Fills `found` with the casters that may shadow a plane, and `pierced`, in order, with those that
 /// have to be cut. What is wanted of the plane shrinks to where their shadows fall.
-fn find(casters: &Casters, plane: &mut LitPlane, cull: bool, found: &mut Vec<u32>, pierced: &mut Vec<u32>) {
+fn find(casters: &Casters, light: &Light, plane: &mut LitPlane, cull: bool, [found, pierced]: [&mut Vec<u32>; 2]) {
     found.clear();
     if cull {
         casters.casting().query(&*plane, found);
     } else {
         found.extend(casters.casting_places());
     }
-    let between = |place: u32| plane.between(&casters.placed()[place as usize]);
-    found.retain(|place| between(*place) != Between::Nothing);
-    pierced.clear();
-    pierced.extend(found.iter().copied().filter(|place| between(*place) == Between::Part));
-    pierced.sort_unstable();
+    let between = |plane: &LitPlane, place: u32| plane.between(&casters.placed()[place as usize]);
+    // The floor under everything stands across every wall.
+    let is_idle = |place: u32| casters.placed()[place as usize].shadows_nothing(light);
+    found.retain(|place| between(plane, *place) != Between::Nothing && !is_idle(*place));
     if found.len() <= MOST_ENCLOSED {
-        plane.shrink(found.iter().map(|place| &casters.placed()[*place as usize].bounds));
+        enclose(casters, plane, cull, found);
     } else {
         plane.highest = plane.reach_of(&casters.casting().content());
     }
+    pierced.clear();
+    pierced.extend(found.iter().copied().filter(|place| between(plane, *place) == Between::Part));
+    pierced.sort_unstable();
+}
+
+/// Drops casters whose shadow falls beside what is wanted of a plane, which shrinks to where the
+/// others fall.
+fn enclose(casters: &Casters, plane: &mut LitPlane, cull: bool, found: &mut Vec<u32>) {
+    let wanted = [plane.low, plane.high];
+    let (mut all, mut area) = ((DVec2::INFINITY, DVec2::NEG_INFINITY), 0.0);
+    plane.highest = 0.0;
+    found.retain(|place| {
+        let placed = &casters.placed()[*place as usize];
+        let shadow = Shadow::of_box(plane, &corners(casters, placed));
+        let outline = shadow.outline();
+        let leaves = outline.as_ref().is_some_and(|outline| outline.leaves(wanted, plane.least));
+        if cull && (leaves || shadow.is_beside(wanted, plane.least)) {
+            return false;
+        }
+        let everywhere = (DVec2::NEG_INFINITY, DVec2::INFINITY);
+        let (from, to) = outline.map_or(everywhere, |outline| outline.around());
+        all = (all.0.min(from), all.1.max(to));
+        area += (to.min(wanted[1]) - from.max(wanted[0])).max(DVec2::ZERO).element_product();
+        plane.highest = plane.highest.max(plane.reach_of(&placed.bounds));
+        true
+    });
+    plane.shrink(all);
+    plane.depth = area / (plane.high - plane.low).element_product();
+}
+
+/// Of the box around a caster, as its mesh lies in it.
+fn corners(casters: &Casters, placed: &Placed) -> [DVec3; 8] {
+    let part = &casters.meshes()[placed.mesh as usize];
+    // Of what moves by itself the host or a pose knows where it may be in the world.
+    if placed.posed || part.lent.is_some() {
+        return placed.bounds.corners();
+    }
+    part.bounds.corners().map(|p| placed.world_from_mesh.transform_point3(p))
 }

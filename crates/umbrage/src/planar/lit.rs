@@ -31,6 +31,9 @@ pub(crate) struct LitPlane {
     pub shadows: (DVec2, DVec2),
     /// The largest that a caster has of h / (1 − h / H), H that of the light.
     pub highest: f64,
+    /// Rectangles around all shadows, over that around what is seen: about how often shadows lie on
+    /// each other. Infinite where that is not known.
+    pub depth: f64,
 }
 
 /// Least sine of the angle between parallel light and a plane.
@@ -68,6 +71,7 @@ impl LitPlane {
             least,
             shadows: (DVec2::NEG_INFINITY, DVec2::INFINITY),
             highest: f64::INFINITY,
+            depth: f64::INFINITY,
         })
     }
 
@@ -101,16 +105,23 @@ impl LitPlane {
         [middle - reach, middle + reach]
     }
 
-    /// Where the shadow of a point falls, along `right` and `up`; the point is below the light.
-    fn shadow(&self, p: DVec3) -> DVec2 {
+    /// Where the shadow of a point falls, homogeneous, along `right` and `up`, and the height of
+    /// the point.
+    pub(super) fn project(&self, p: DVec3) -> (DVec3, f64) {
         let p = p - self.origin;
         let height = self.plane.dot(p.extend(1.0));
-        let on_plane = (p - self.light * height) / (1.0 - self.inverse_height * height);
-        DVec2::new(self.right.dot(on_plane), self.up.dot(on_plane))
+        let on_plane = p - self.light * height;
+        (DVec3::new(self.right.dot(on_plane), self.up.dot(on_plane), 1.0 - self.inverse_height * height), height)
+    }
+
+    /// The same; the point is below the light.
+    fn shadow(&self, p: DVec3) -> DVec2 {
+        let (at, _) = self.project(p);
+        at.truncate() / at.z
     }
 
     /// A rectangle around the shadow of a box; `None` where that may reach any distance.
-    pub fn shadow_of(&self, bounds: &Bounds) -> Option<(DVec2, DVec2)> {
+    fn shadow_of(&self, bounds: &Bounds) -> Option<(DVec2, DVec2)> {
         let [_, high] = self.heights(bounds);
         let around = |(low, high): (DVec2, DVec2), p: DVec2| (low.min(p), high.max(p));
         let shadow = || bounds.corners().map(|p| self.shadow(p));
@@ -118,16 +129,9 @@ impl LitPlane {
             .then(|| shadow().into_iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), around))
     }
 
-    /// Makes the rectangle no larger than shadows of boxes.
-    pub(super) fn shrink<'a>(&mut self, casters: impl Iterator<Item = &'a Bounds> + Clone) {
-        let around = |(low, high): (DVec2, DVec2), bounds| {
-            let everywhere = (DVec2::NEG_INFINITY, DVec2::INFINITY);
-            let (from, to) = self.shadow_of(bounds).unwrap_or(everywhere);
-            (low.min(from), high.max(to))
-        };
-        let (low, high) = casters.clone().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), around);
+    /// Makes the rectangle no larger than all shadows.
+    pub(super) fn shrink(&mut self, (low, high): (DVec2, DVec2)) {
         self.shadows = (low - self.least, high + self.least);
-        self.highest = casters.map(|bounds| self.reach_of(bounds)).fold(0.0, f64::max);
         (self.low, self.high) = (self.shadows.0.clamp(self.low, self.high), self.shadows.1.clamp(self.low, self.high));
     }
 

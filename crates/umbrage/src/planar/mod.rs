@@ -8,6 +8,7 @@
 
 mod chosen;
 mod lit;
+mod outline;
 mod screen;
 mod seen;
 mod uniforms;

@@ -10,9 +10,8 @@ struct FoundPlane {
     normal: vec3f,
     // What rasterisers shift surfaces, as `across` counts.
     snapped: f32,
-    // Where it is on the screen, normalised device coordinates.
-    low: vec2f,
-    high: vec2f,
+    // A quad around it on the screen, two corners each, normalised device coordinates.
+    corners: array<vec4f, 2>,
 }
 
 struct PlaneFinder {

@@ -18,8 +18,13 @@ struct PlaneShadow {
     least: f32,
     // Of all casters, h / (1 − h / H) is at most this, h their height and H the light's.
     highest: f32,
-    pad_b: f32,
-    pad_c: f32,
+    // What the depth buffer rounds, and what rasterisers shift surfaces, see `plane_finder.wgsl`.
+    rounding: f32,
+    snapped: f32,
+    // The distance of what a pixel shows from the plane, and its w; both times w, from the pixel
+    // and its depth.
+    off_plane: vec4f,
+    eye_w: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> shadow: PlaneShadow;

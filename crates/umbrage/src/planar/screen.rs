@@ -57,7 +57,50 @@ impl Screen {
         let extent = ((high.ceil() + 1.0).min(size) - first).max(DVec2::ZERO);
         [first.x, first.y, extent.x, extent.y].map(|v| v as u32)
     }
+
+    /// Corners, in order, around all that is seen of a rectangle in space, in normalised device
+    /// coordinates: its own, a pixel farther out, or those of `rect` where part of it is not in
+    /// front of the eye or it is seen edge-on.
+    pub fn quad(&self, corners: &[DVec3; 4], rect: [u32; 4]) -> [DVec2; 4] {
+        let size = DVec2::new(self.size.0.into(), self.size.1.into());
+        let pixel = |p: DVec3| {
+            let clip = self.clip_from_origin * p.extend(1.0);
+            (DVec2::new(clip.x, -clip.y) / clip.w * 0.5 + 0.5) * size
+        };
+        let own = self.has_before(corners).then(|| grown(&corners.map(pixel))).flatten();
+        own.map_or_else(|| quad_of(rect, self.size), |own| own.map(|p| from_pixels(p, size)))
+    }
 }
+
+/// The corners of a rectangle of pixels in normalised device coordinates.
+pub(super) fn quad_of([x, y, width, height]: [u32; 4], size: (u32, u32)) -> [DVec2; 4] {
+    let size = DVec2::new(size.0.into(), size.1.into());
+    let (low, extent) = (DVec2::new(x.into(), y.into()), DVec2::new(width.into(), height.into()));
+    [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|corner| from_pixels(low + extent * corner, size))
+}
+
+fn from_pixels(p: DVec2, size: DVec2) -> DVec2 {
+    (p / size * 2.0 - 1.0) * DVec2::new(1.0, -1.0)
+}
+
+/// A convex polygon with each side moved outwards by 1; `None` where a corner would be far away.
+fn grown(corners: &[DVec2; 4]) -> Option<[DVec2; 4]> {
+    let side = |i: usize| corners[(i + 1) % 4] - corners[i % 4];
+    let turn = side(0).perp_dot(side(1)).signum();
+    let mut grown = *corners;
+    for (i, corner) in grown.iter_mut().enumerate() {
+        let [before, after] = [side(i + 3), side(i)].map(|side| side.try_normalize());
+        let [before, after] = [before?, after?].map(|side| side.perp() * -turn);
+        if !(before.perp_dot(after) * turn > LEAST_SINE) {
+            return None;
+        }
+        *corner += (before + after) / (1.0 + before.dot(after));
+    }
+    Some(grown)
+}
+
+/// Of the angle at a corner of a polygon that is grown.
+const LEAST_SINE: f64 = 0.05;
 
 impl Clipper {
     /// What the camera sees of a convex polygon: nothing has no corners.
@@ -98,4 +141,21 @@ pub(crate) fn nearest_w(camera: &CameraView) -> f64 {
     let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
     let inverse_w = corners.map(|(x, y)| (view_from_clip * DVec4::new(x, y, near_depth, 1.0)).w.abs());
     0.5 / inverse_w.into_iter().fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn polygons_grow_by_a_pixel_to_each_side_whichever_way_they_turn() {
+        let square = [DVec2::ZERO, DVec2::X * 9.0, DVec2::splat(9.0), DVec2::Y * 9.0];
+        let larger = [DVec2::splat(-1.0), DVec2::new(10.0, -1.0), DVec2::splat(10.0), DVec2::new(-1.0, 10.0)];
+        assert_eq!(grown(&square), Some(larger));
+        let [a, b, c, d] = square;
+        let [e, f, g, h] = larger;
+        assert_eq!(grown(&[d, c, b, a]), Some([h, g, f, e]));
+        assert_eq!(grown(&[a, b, b, a]), None, "without width");
+        assert_eq!(grown(&[a, b, DVec2::new(18.0, 0.1), DVec2::new(9.0, 0.1)]), None, "corners far away");
+    }
 }

@@ -3,12 +3,13 @@
 use super::MOST;
 use super::chosen::Chosen;
 use super::lit::LitPlane;
-use crate::fullscreen::{UNIFORM, bind, layout};
-use crate::receivers::Eye;
+use super::screen::quad_of;
+use crate::fullscreen::{UNIFORM, bind, layout, texture};
+use crate::receivers::{Eye, Receivers};
 use crate::shader::{Shared, shader_struct};
 use crate::snapping::GROUND;
 use crate::{gpu::Gpu, passes::Passes, view::View};
-use umbrage_core::glam::{DMat4, DVec2};
+use umbrage_core::glam::{DMat4, DVec2, DVec3, DVec4};
 
 /// What the host has to agree on with `plane_finder.wgsl`.
 pub(super) const FINDER: Shared = Shared {
@@ -40,8 +41,7 @@ shader_struct! {
         across: [f32; 4],
         normal: [f32; 3],
         snapped: f32,
-        low: [f32; 2],
-        high: [f32; 2],
+        corners: [[f32; 4]; 2],
     }
 }
 
@@ -56,8 +56,10 @@ shader_struct! {
         nearest: f32,
         least: f32,
         highest: f32,
-        pad_b: f32,
-        pad_c: f32,
+        rounding: f32,
+        snapped: f32,
+        off_plane: [f32; 4],
+        eye_w: [f32; 4],
     }
 }
 
@@ -73,17 +75,18 @@ const ROUNDING: f32 = 1.2e-7;
 /// Dynamic offsets are multiples of this on every device.
 const STRIDE: u64 = 256;
 
+const SHADOW_SIZE: Option<wgpu::BufferSize> = wgpu::BufferSize::new(size_of::<PlaneShadow>() as u64);
+
 impl PlaneFinder {
     /// For planes of one light.
-    fn new(view: &View<'_>, planes: &[LitPlane], behind: &[LitPlane], rects: &[[u32; 4]]) -> Self {
+    fn new(view: &View<'_>, chosen: &Chosen) -> Self {
+        let (planes, behind) = (chosen.planes(), chosen.behind());
         let center = view.light.shape.center();
         let light = center.truncate() - view.camera.eye * center.w;
         let eye = view.camera.eye - view.casters.origin();
         let of_eye = Eye::new(view);
         let mut finder = Self {
-            rounding: of_eye.coarseness
-                * of_eye.reach
-                * if view.receivers.has_normals { ROUNDING } else { 8.0 * ROUNDING },
+            rounding: rounding(view, &of_eye),
             eye: of_eye,
             light: light.extend(center.w).as_vec4().to_array(),
             slack: planes
@@ -94,35 +97,41 @@ impl PlaneFinder {
             count: planes.len() as u32,
             ..Self::default()
         };
-        let (lit, unlit) = rects.split_at(planes.len().min(rects.len()));
-        let of = |(plane, rect): (&LitPlane, &[u32; 4])| FoundPlane::new(view, plane, *rect);
-        let lit = finder.planes.iter_mut().zip(planes.iter().zip(lit));
-        let unlit = finder.behind.iter_mut().zip(behind.iter().zip(unlit));
-        lit.chain(unlit).for_each(|(data, plane)| *data = of(plane));
+        let rects = chosen.rects().iter().map(|rect| quad_of(*rect, view.receivers.size));
+        let lit = finder.planes.iter_mut().zip(planes.iter().zip(rects));
+        let unlit = finder.behind.iter_mut().zip(behind.iter().zip(chosen.quads().iter().copied()));
+        lit.chain(unlit).for_each(|(data, (plane, quad))| *data = FoundPlane::new(view, plane, quad));
         finder
     }
 }
 
+/// What the depth buffer rounds, see `position_rounding` in `receivers.wgsl`.
+fn rounding(view: &View<'_>, eye: &Eye) -> f32 {
+    eye.coarseness * eye.reach * if view.receivers.has_normals { ROUNDING } else { 8.0 * ROUNDING }
+}
+
+/// What rasterisers shift surfaces in a plane, as its equation in normalised device coordinates
+/// counts.
+fn snapped(view: &View<'_>, plane: &LitPlane, eye_from_ndc: &DMat4) -> f32 {
+    let equation = plane.relative_to(view);
+    let size = DVec2::new(view.receivers.size.0.into(), view.receivers.size.1.into());
+    let shifted = [0, 1].map(|i| equation.truncate().dot(eye_from_ndc.col(i).truncate()).abs());
+    let long = (plane.reach / GROUND).clamp(*LONG_SPREAD.start(), *LONG_SPREAD.end());
+    let spread = if plane.reach > 0.0 { long } else { SPREAD };
+    let snapped = DVec2::from(shifted) * 2.0 * spread * f64::from(view.receivers.snapping) / size;
+    snapped.element_sum() as f32
+}
+
 impl FoundPlane {
-    fn new(view: &View<'_>, plane: &LitPlane, [x, y, width, height]: [u32; 4]) -> Self {
+    fn new(view: &View<'_>, plane: &LitPlane, quad: [DVec2; 4]) -> Self {
         let eye_from_ndc = view.clip_from_eye().inverse();
         let equation = plane.relative_to(view);
-        let size = DVec2::new(view.receivers.size.0.into(), view.receivers.size.1.into());
-        let ndc = |x: u32, y: u32| {
-            let at = DVec2::new(x.into(), y.into()) * 2.0 / size - 1.0;
-            [at.x as f32, -at.y as f32]
-        };
-        let across = eye_from_ndc.transpose() * equation;
-        let shifted = [0, 1].map(|i| equation.truncate().dot(eye_from_ndc.col(i).truncate()).abs());
-        let long = (plane.reach / GROUND).clamp(*LONG_SPREAD.start(), *LONG_SPREAD.end());
-        let spread = if plane.reach > 0.0 { long } else { SPREAD };
-        let snapped = DVec2::from(shifted) * 2.0 * spread * f64::from(view.receivers.snapping) / size;
+        let [a, b, c, d] = quad.map(|p| p.as_vec2());
         Self {
-            across: across.as_vec4().to_array(),
+            across: (eye_from_ndc.transpose() * equation).as_vec4().to_array(),
             normal: equation.truncate().as_vec3().to_array(),
-            snapped: snapped.element_sum() as f32,
-            low: ndc(x, y + height),
-            high: ndc(x + width, y),
+            snapped: snapped(view, plane, &eye_from_ndc),
+            corners: [[a.x, a.y, b.x, b.y], [c.x, c.y, d.x, d.y]],
         }
     }
 }
@@ -145,37 +154,46 @@ impl Finder {
 
     /// For the planes of a light.
     pub fn upload(&self, passes: &mut Passes<'_>, view: &View<'_>, chosen: &Chosen) {
-        let finder = PlaneFinder::new(view, chosen.planes(), chosen.behind(), chosen.rects());
+        let finder = PlaneFinder::new(view, chosen);
         passes.upload(&self.buffer, bytemuck::bytes_of(&finder));
     }
 }
 
-/// The uniforms of projections, one a plane in one buffer.
+/// The uniforms of projections, one a plane in one buffer, and the depth of receivers.
 pub(crate) struct Shadows {
     pub layout: wgpu::BindGroupLayout,
-    bind_group: wgpu::BindGroup,
+    bind_group: Option<(wgpu::TextureView, wgpu::BindGroup)>,
     buffer: wgpu::Buffer,
     data: Vec<u8>,
 }
 
 impl Shadows {
     pub fn new(gpu: &Gpu) -> Self {
-        let size = wgpu::BufferSize::new(size_of::<PlaneShadow>() as u64);
         let binding = wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Uniform,
             has_dynamic_offset: true,
-            min_binding_size: size,
+            min_binding_size: SHADOW_SIZE,
         };
-        let layout = layout(gpu, "shadow on a plane", wgpu::ShaderStages::VERTEX_FRAGMENT, &[binding]);
+        let bindings = [binding, texture(wgpu::TextureSampleType::Depth)];
+        let layout = layout(gpu, "shadow on a plane", wgpu::ShaderStages::VERTEX_FRAGMENT, &bindings);
         let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("shadows on planes"),
             size: STRIDE * MOST as u64,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let whole = wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer: &buffer, offset: 0, size });
-        let bind_group = bind(gpu, "shadow on a plane", &layout, &[whole]);
-        Self { layout, bind_group, buffer, data: Vec::new() }
+        Self { layout, bind_group: None, buffer, data: Vec::new() }
+    }
+
+    /// For these receivers.
+    pub fn prepare(&mut self, gpu: &Gpu, receivers: &Receivers) {
+        if self.bind_group.as_ref().is_none_or(|(depth, _)| *depth != receivers.depth) {
+            let one = wgpu::BufferBinding { buffer: &self.buffer, offset: 0, size: SHADOW_SIZE };
+            let depth = wgpu::BindingResource::TextureView(&receivers.depth);
+            let resources = [wgpu::BindingResource::Buffer(one), depth];
+            let bind_group = bind(gpu, "shadow on a plane", &self.layout, &resources);
+            self.bind_group = Some((receivers.depth.clone(), bind_group));
+        }
     }
 
     /// For each plane, with the matrix that takes points relative to the eye to clip space, and
@@ -195,9 +213,10 @@ impl Shadows {
         passes.upload(&self.buffer, &self.data);
     }
 
-    /// Binds those of a plane as group 0.
+    /// Binds those of a plane as group 0, once prepared.
     pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, plane: usize) {
-        pass.set_bind_group(0, &self.bind_group, &[(plane as u64 * STRIDE) as u32]);
+        let bind_group = self.bind_group.as_ref().map(|(_, bind_group)| bind_group);
+        pass.set_bind_group(0, bind_group, &[(plane as u64 * STRIDE) as u32]);
     }
 
     /// Bytes of GPU memory.
@@ -209,16 +228,28 @@ impl Shadows {
 impl PlaneShadow {
     fn new(view: &View<'_>, plane: &LitPlane, clip_from_eye: &DMat4, nearest: f64) -> Self {
         let eye = view.camera.eye - plane.origin;
+        let eye_from_ndc = view.clip_from_eye().inverse();
+        let equation = plane.relative_to(view);
+        let by_pixel = |by_ndc: DVec4| (ndc_from_pixel(view).transpose() * by_ndc).as_vec4().to_array();
         Self {
             clip_from_eye: clip_from_eye.as_mat4().to_cols_array_2d(),
-            plane: plane.relative_to(view).as_vec4().to_array(),
+            plane: equation.as_vec4().to_array(),
             light: (plane.light - eye * plane.inverse_height).as_vec3().to_array(),
             inverse_height: plane.inverse_height as f32,
             eye: eye.as_vec3().to_array(),
             nearest: nearest as f32,
             least: plane.least.max(1e-6 * eye.abs().max_element()) as f32,
             highest: plane.highest.min(f32::MAX.into()) as f32,
-            ..Self::default()
+            rounding: rounding(view, &Eye::new(view)),
+            snapped: snapped(view, plane, &eye_from_ndc),
+            off_plane: by_pixel(eye_from_ndc.transpose() * equation),
+            eye_w: by_pixel(eye_from_ndc.row(3)),
         }
     }
+}
+
+/// From pixels and depth to normalised device coordinates.
+fn ndc_from_pixel(view: &View<'_>) -> DMat4 {
+    let scale = DVec3::new(2.0 / f64::from(view.receivers.size.0), -2.0 / f64::from(view.receivers.size.1), 1.0);
+    DMat4::from_translation(DVec3::new(-1.0, 1.0, 0.0)) * DMat4::from_scale(scale)
 }

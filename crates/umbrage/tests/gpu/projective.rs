@@ -89,12 +89,13 @@ fn lights_in_and_behind_planes_and_scenes_without_planes_leave_all_lit() {
 #[test]
 fn planes_beyond_the_limit_are_counted() {
     let gpu = gpu();
-    let mut scene = floor(DVec3::new(1.0, 4.0, 1.0));
+    let lamp = DVec3::new(1.0, 4.0, 1.0);
+    let mut scene = floor(lamp);
     let (plane, cube) = (scene.instances[0].mesh, scene.add_mesh(primitive::cube()));
     for step in 0..4 {
         let place = DVec3::new(-3.0, 0.2 + 0.2 * f64::from(step), 1.5 * f64::from(step) - 2.0);
         scene.place(plane, 0, DAffine3::from_translation(place));
-        scene.place(cube, 0, DAffine3::from_translation(place + DVec3::new(0.2, 1.5, 0.0)));
+        scene.place(cube, 0, DAffine3::from_translation(place.lerp(lamp, 0.4)));
     }
     let counts = |set: &str| {
         let mut renderer = renderer(&gpu, &scene, 0, "projective", set, SIZE);

@@ -20,7 +20,7 @@ pub(crate) struct MeshPart {
     /// Where it is drawn from, where that is not here. Vertices and triangles that are known are
     /// here as well, for edges.
     pub lent: Option<Lent>,
-    pub(in crate::casters) bounds: Bounds,
+    pub bounds: Bounds,
     pub(in crate::casters) plane: Option<DVec4>,
     /// It is the surface of a convex body.
     pub(in crate::casters) solid: bool,

@@ -105,9 +105,9 @@ impl Lookup {
         self.is_quick = true;
     }
 
-    /// By another fragment shader, `entry`, whose target has another format.
-    pub fn into(mut self, entry: &'static str, format: wgpu::TextureFormat) -> Self {
-        (self.entry, self.target) = (Some(entry), format.into());
+    /// By another fragment shader, `entry`, into another target.
+    pub fn into(mut self, entry: &'static str, target: impl Into<wgpu::ColorTargetState>) -> Self {
+        (self.entry, self.target) = (Some(entry), target.into());
         self
     }
 

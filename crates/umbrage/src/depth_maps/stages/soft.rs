@@ -26,6 +26,9 @@ impl TapStage {
     /// What a filter that follows the light binds: taps and bounds.
     pub(crate) const LIGHT_BINDINGS: [wgpu::BindingType; 2] = [STORAGE, BoundsPyramid::BINDING];
 
+    /// Bytes that a pixel reads of the bounds at most: three by three cells, in two rounds.
+    pub(crate) const BOUNDS_BYTES: u64 = 2 * 9 * 4;
+
     /// For a filter of one width all around.
     pub(crate) fn disc(gpu: &Gpu, taps: Taps) -> Self {
         let layout = layout(gpu, "taps", wgpu::ShaderStages::FRAGMENT, &[STORAGE]);

@@ -82,9 +82,9 @@ impl Filter for Esm {
             if half { (PASSES_16, LOOKUP_16, Coding::Unorm) } else { (PASSES, LOOKUP, Coding::Single) };
         let recipe = Recipe { passes, channels: 1, coding, constants: vec![exponent] };
         let stage = MomentStage::new(gpu, maps.size, &self.filtering, &recipe);
-        let reach = stage.reach();
+        let (reach, bytes) = (stage.reach(), stage.lookup_bytes());
         let constants = [("MIPS", f64::from(u8::from(self.filtering.mips))), ("BLEEDING", self.bleeding), exponent];
         let maps = MapTechnique::staged(gpu, maps, &lookup, reach, &constants, Some(Box::new(stage)))?;
-        Ok(Box::new(maps.with_every_caster()))
+        Ok(Box::new(maps.with_every_caster().reading(bytes)))
     }
 }

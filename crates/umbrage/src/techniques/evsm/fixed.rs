@@ -28,7 +28,7 @@ pub(super) fn make(evsm: &Evsm, gpu: &Gpu, maps: &MapSetup) -> Result<MapTechniq
     let warps = [("GROWTH", growth), ("DECAY", growth), ("LIFT", lift)];
     let recipe = Recipe { passes: PASSES, channels, coding, constants: warps.to_vec() };
     let stage = MomentStage::new(gpu, maps.size, &evsm.filtering, &recipe);
-    let reach = stage.reach();
+    let (reach, bytes) = (stage.reach(), stage.lookup_bytes());
     let constants = [
         warps[0],
         warps[1],
@@ -38,5 +38,5 @@ pub(super) fn make(evsm: &Evsm, gpu: &Gpu, maps: &MapSetup) -> Result<MapTechniq
         ("BLEEDING", evsm.bleeding),
         ("LEAST_VARIANCE", if half { 2e-3 } else { 1e-6 }),
     ];
-    MapTechnique::staged(gpu, maps, &LOOKUP, reach, &constants, Some(Box::new(stage)))
+    Ok(MapTechnique::staged(gpu, maps, &LOOKUP, reach, &constants, Some(Box::new(stage)))?.reading(bytes))
 }

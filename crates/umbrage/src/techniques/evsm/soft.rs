@@ -33,7 +33,7 @@ pub(super) fn make(evsm: &Evsm, gpu: &Gpu, maps: &MapSetup) -> Result<MapTechniq
     let growth = ("GROWTH", evsm.growth(maps.size, if half { 5.54 } else { 42.0 }));
     let recipe = Recipe { passes, channels: 4, coding, constants: vec![growth] };
     let stage = MomentStage::soft(gpu, maps.size, &evsm.filtering, &recipe, Taps::even(SEARCH, FILTER));
-    let reach = stage.reach();
+    let (reach, bytes) = (stage.reach(), stage.soft_lookup_bytes(SEARCH, FILTER));
     let constants = [
         growth,
         ("SEARCH", f64::from(SEARCH)),
@@ -42,5 +42,5 @@ pub(super) fn make(evsm: &Evsm, gpu: &Gpu, maps: &MapSetup) -> Result<MapTechniq
         ("LEAST_VARIANCE", if half { 2e-3 } else { 1e-6 }),
         ("LEAST_DEPTH_VARIANCE", if half { 3e-5 } else { 1e-7 }),
     ];
-    Ok(MapTechnique::staged(gpu, maps, &lookup, reach, &constants, Some(Box::new(stage)))?.soft())
+    Ok(MapTechnique::staged(gpu, maps, &lookup, reach, &constants, Some(Box::new(stage)))?.soft().reading(bytes))
 }

@@ -168,6 +168,17 @@ impl Mask {
         pass.draw(0..3, 0..1);
     }
 
+    /// Bytes that a pixel reads at most: all trees, and of each triangle its corners and four half
+    /// planes.
+    pub fn most_read(&self) -> u64 {
+        let of = |(.., trees): &(u64, wgpu::Buffer, Trees)| {
+            let [nodes, triangles, top, placed] = trees.buffers().map(wgpu::Buffer::size);
+            let corners = triangles / 4;
+            nodes + top + placed + triangles + corners * 12 + corners / 3 * 4 * 16 * u64::from(self.words.div_ceil(4))
+        };
+        self.trees.as_ref().map_or(0, of)
+    }
+
     /// Bytes of GPU memory.
     pub fn bytes(&self) -> u64 {
         let trees = self.trees.iter().flat_map(|(.., trees)| trees.buffers());

@@ -2,6 +2,7 @@
 
 use super::mask::Mask;
 use crate::area_light::{Form, casters_in_view, is_on_a_caster};
+use crate::depth_maps::RECEIVER_BYTES;
 use crate::technique::{InOrder, Inside, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, inline::Lent, passes::Passes, view::View, visibility::VisibilityTarget};
 
@@ -87,5 +88,9 @@ impl Inside for LightMask {
             casters_culled: self.casting.saturating_sub(chosen),
             bytes: self.mask.as_ref().map_or(0, Mask::bytes),
         }
+    }
+
+    fn reads(&self, pass: &str) -> Option<u64> {
+        (pass == "visibility").then(|| RECEIVER_BYTES + self.mask.as_ref().map_or(0, Mask::most_read))
     }
 }

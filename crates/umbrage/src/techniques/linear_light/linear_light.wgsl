@@ -12,6 +12,8 @@ struct PointLookup {
 
 @group(2) @binding(0) var<uniform> lookup: PointLookup;
 @group(2) @binding(1) var shares: texture_2d_array<f32>;
+// What the point before sees of each pixel.
+@group(2) @binding(2) var before: texture_2d<f32>;
 
 // Neighbours that points have.
 override NEIGHBOURS: u32 = 2u;
@@ -59,9 +61,7 @@ fn shares_at(point: MapPoint, pixel: Pixel) -> vec2f {
     return vec2f(seen, share_to(1u, second, receiver, pixel.surface, above));
 }
 
-@fragment
-fn point_shares(@builtin(position) at: vec4f) -> @location(0) vec2f {
-    let pixel = pixel_at(at.xy);
+fn shares_of(pixel: Pixel) -> vec2f {
     let first = point_by_matrix(pixel, 0u);
     let split = layer_of_pixel(pixel, first);
     let point = map_point(pixel, first, split.layer);
@@ -69,6 +69,18 @@ fn point_shares(@builtin(position) at: vec4f) -> @location(0) vec2f {
         return vec2f(0.5 * settled_share(pixel, point));
     }
     return shares_at(point, pixel);
+}
+
+@fragment
+fn point_shares(@builtin(position) at: vec4f) -> @location(0) vec2f {
+    return shares_of(pixel_at(at.xy));
+}
+
+// What both ends see of the last piece of the light, as `pieces.wgsl` has it.
+@fragment
+fn last_piece(@builtin(position) at: vec4f) -> @location(0) f32 {
+    let first = textureLoad(before, vec2i(at.xy), 0).x;
+    return min(first + shares_of(pixel_at(at.xy)).x, 1.0);
 }
 
 // A light that is one point.

@@ -5,7 +5,7 @@ use super::light::weight;
 use super::point::Point;
 use super::uniform::PointLookup;
 use crate::depth_maps::{Blend, Lookup};
-use crate::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, attachment, bind, layout, target_texture};
+use crate::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, attachment, bind, layer_view, layout, target_texture};
 use crate::shader::HostConstant;
 use crate::{gpu::Gpu, passes::Passes, receivers::Receivers, visibility::VisibilityTarget};
 use umbrage_core::glam::DVec3;
@@ -18,12 +18,38 @@ const SHARES: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
 
 /// Pipelines of all points.
 pub(super) struct Pipelines {
-    /// Of a light that is one point, of ends and of points between two others.
-    lookups: [Lookup; 3],
+    /// In the order of [`Role`].
+    lookups: [Lookup; 5],
     own: wgpu::BindGroupLayout,
     both: wgpu::BindGroupLayout,
     piece: wgpu::RenderPipeline,
     seen: Option<Seen>,
+}
+
+/// What a point is in its light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Role {
+    /// The light is one point.
+    Alone,
+    /// One end.
+    First,
+    Between,
+    /// The other end, which adds up the last piece of the light.
+    Last,
+    /// That where there is no other piece.
+    Second,
+}
+
+impl Role {
+    fn of(i: usize, count: usize) -> Self {
+        match (i, count) {
+            (_, 1) => Self::Alone,
+            (0, _) => Self::First,
+            (1, 2) => Self::Second,
+            _ if i + 1 == count => Self::Last,
+            _ => Self::Between,
+        }
+    }
 }
 
 /// What two points in turn see of each pixel.
@@ -41,7 +67,8 @@ impl Pipelines {
             view_dimension: wgpu::TextureViewDimension::D2Array,
             multisampled: false,
         };
-        let own = layout(gpu, "shares", wgpu::ShaderStages::FRAGMENT, &[UNIFORM, shares]);
+        let bindings = [UNIFORM, shares, fullscreen::texture(FLOATS)];
+        let own = layout(gpu, "shares", wgpu::ShaderStages::FRAGMENT, &bindings);
         let both = layout(gpu, "both ends", wgpu::ShaderStages::FRAGMENT, &[fullscreen::texture(FLOATS); 2]);
         let module = super::PIECES.module(gpu);
         let target = weighted();
@@ -52,7 +79,13 @@ impl Pipelines {
             Lookup::new(gpu, &super::LOOKUP, Blend::Off, &constants, Some(own.clone()))
         };
         Self {
-            lookups: [lookup(0.0), lookup(1.0).into("point_shares", SHARES), lookup(2.0).into("point_shares", SHARES)],
+            lookups: [
+                lookup(0.0),
+                lookup(1.0).into("point_shares", SHARES),
+                lookup(2.0).into("point_shares", SHARES),
+                lookup(1.0).into("last_piece", weighted()),
+                lookup(1.0).into("last_piece", VisibilityTarget::FORMAT),
+            ],
             piece: piece.pipeline(gpu),
             own,
             both,
@@ -60,19 +93,33 @@ impl Pipelines {
         }
     }
 
-    /// The look-up of a point with so many neighbours.
-    pub fn of(&mut self, neighbours: usize) -> &mut Lookup {
-        &mut self.lookups[neighbours.min(2)]
+    /// The look-up of point `i` of so many.
+    pub fn of(&mut self, i: usize, count: usize) -> &mut Lookup {
+        &mut self.lookups[Role::of(i, count) as usize]
     }
 
-    /// For the texture of a point's channels.
-    pub fn bind(&self, gpu: &Gpu, uniform: &wgpu::Buffer, shares: &wgpu::Texture) -> wgpu::BindGroup {
+    /// What the point before point `i` sees of each pixel; `None` where there is no room for it.
+    pub fn before(&self, i: usize) -> Option<&wgpu::TextureView> {
+        self.seen.as_ref().map(|seen| &seen.views[(i + 1) % 2])
+    }
+
+    /// For the texture of a point's channels, and what the point before sees.
+    pub fn bind(
+        &self,
+        gpu: &Gpu,
+        uniform: &wgpu::Buffer,
+        shares: &wgpu::Texture,
+        before: Option<&wgpu::TextureView>,
+    ) -> wgpu::BindGroup {
+        // What a single point binds in its place is not read.
+        let before = before.cloned().unwrap_or_else(|| layer_view(shares, 0));
         let view = shares.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()
         });
-        let resources = [uniform.as_entire_binding(), wgpu::BindingResource::TextureView(&view)];
-        bind(gpu, "shares", &self.own, &resources)
+        let textures = [&view, &before].map(wgpu::BindingResource::TextureView);
+        let [view, before] = textures;
+        bind(gpu, "shares", &self.own, &[uniform.as_entire_binding(), view, before])
     }
 
     /// Makes room for what points see in a picture of this size.
@@ -101,19 +148,21 @@ impl Pipelines {
             let Some(made) = point.made() else { return 0 };
             return self.lookups[0].draw(&mut pass, receivers, &point.maps.input, Some(&made.look_up));
         }
-        let Some(seen) = &self.seen else { return 0 };
         let mut draws = 0;
         for (i, point) in points.iter().enumerate() {
-            draws += self.record_point(passes, receivers, point, &seen.views[i % 2]);
-            if i > 0 {
-                let load = if i == 1 { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
-                let mut pass = passes.render("pieces", &[attachment(&visibility.view, load)], None);
-                let weight = weight(i - 1, points.len() - 1);
-                pass.set_blend_constant(wgpu::Color { r: weight, g: weight, b: weight, a: weight });
-                pass.set_pipeline(&self.piece);
-                pass.set_bind_group(0, &seen.both[(i - 1) % 2], &[]);
-                pass.draw(0..3, 0..1);
-                draws += 1;
+            let weight = weight(i.saturating_sub(1), points.len() - 1);
+            let load = if i == 1 { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
+            let visibility = attachment(&visibility.view, load);
+            if let Some(made) = point.made().filter(|_| i + 1 == points.len()) {
+                let mut pass = passes.render("visibility", &[visibility], None);
+                set_weight(&mut pass, weight);
+                let lookup = &self.lookups[Role::of(i, points.len()) as usize];
+                draws += lookup.draw(&mut pass, receivers, &point.maps.input, Some(&made.look_up));
+            } else {
+                draws += self.record_point(passes, receivers, (point, i, points.len()));
+                if i > 0 {
+                    draws += self.record_piece(passes, i - 1, visibility, weight);
+                }
             }
         }
         draws
@@ -124,20 +173,42 @@ impl Pipelines {
         &self,
         passes: &mut Passes<'_>,
         receivers: &Receivers,
-        point: &Point,
-        target: &wgpu::TextureView,
+        (point, i, count): (&Point, usize, usize),
     ) -> u32 {
         let all = wgpu::LoadOp::Clear(wgpu::Color { r: 0.5, g: 0.5, b: 0.5, a: 0.5 });
+        // What the next point is before.
+        let Some(target) = self.before(i + 1) else { return 0 };
         let mut pass = passes.render("visibility", &[attachment(target, all)], None);
         let Some(made) = point.made() else { return 0 };
-        let lookup = &self.lookups[made.channels.len().min(2)];
+        let lookup = &self.lookups[Role::of(i, count) as usize];
         lookup.draw(&mut pass, receivers, &point.maps.input, Some(&made.look_up))
+    }
+
+    /// Adds up what both ends of a piece see.
+    fn record_piece(
+        &self,
+        passes: &mut Passes<'_>,
+        i: usize,
+        visibility: Option<wgpu::RenderPassColorAttachment<'_>>,
+        weight: f64,
+    ) -> u32 {
+        let Some(seen) = &self.seen else { return 0 };
+        let mut pass = passes.render("pieces", &[visibility], None);
+        set_weight(&mut pass, weight);
+        pass.set_pipeline(&self.piece);
+        pass.set_bind_group(0, &seen.both[i % 2], &[]);
+        pass.draw(0..3, 0..1);
+        1
     }
 
     pub fn bytes(&self) -> u64 {
         let seen = self.seen.as_ref().map_or(0, |seen| 2 * 4 * u64::from(seen.size.0) * u64::from(seen.size.1));
         self.lookups.iter().map(Lookup::bytes).sum::<u64>() + seen
     }
+}
+
+fn set_weight(pass: &mut wgpu::RenderPass<'_>, weight: f64) {
+    pass.set_blend_constant(wgpu::Color { r: weight, g: weight, b: weight, a: weight });
 }
 
 /// Adds what is drawn, times the pass's blend constant.

@@ -1,6 +1,6 @@
 //! One point of the light: its maps, the steps in them and its channels.
 
-use super::borders::Borders;
+use super::borders::{Borders, neighbours};
 use super::channel::{Channel, channels};
 use super::lookup::Pipelines;
 use super::steps::StepList;
@@ -33,6 +33,8 @@ pub(super) struct Made {
     /// To the next point, if there is one, and to the one before.
     pub channels: Vec<Channel>,
     pub shares: wgpu::Texture,
+    /// What the point before sees.
+    before: Option<wgpu::TextureView>,
     pub look_up: wgpu::BindGroup,
 }
 
@@ -51,11 +53,14 @@ impl Point {
         }
     }
 
-    /// Makes room for channels to so many neighbours.
-    pub fn make_room(&mut self, gpu: &Gpu, borders: &Borders, pipelines: &Pipelines, neighbours: usize) {
+    /// Makes room for channels to the neighbours that point `i` of `count` has.
+    pub fn make_room(&mut self, gpu: &Gpu, borders: &Borders, pipelines: &Pipelines, (i, count): (usize, usize)) {
+        let (neighbours, before) = (neighbours(i, count).count(), pipelines.before(i).filter(|_| count > 1));
         let frame = self.maps.frame();
         let Some(maps) = frame.texture.as_ref().filter(|_| !frame.views.is_empty()) else { return };
-        let fits = |made: &Made| made.maps == *maps && made.channels.len() == neighbours;
+        let fits = |made: &Made| {
+            made.maps == *maps && made.channels.len() == neighbours && made.before.as_ref() == before
+        };
         if self.made.as_ref().is_some_and(fits) {
             return;
         }
@@ -71,7 +76,8 @@ impl Point {
         });
         let (shares, channels) = channels(gpu, &borders.into, maps, shared, neighbours as u32);
         self.made = Some(Made {
-            look_up: pipelines.bind(gpu, &self.look_up_uniform, &shares),
+            look_up: pipelines.bind(gpu, &self.look_up_uniform, &shares, before),
+            before: before.cloned(),
             maps: maps.clone(),
             steps,
             channels,

@@ -101,9 +101,9 @@ impl Technique for LinearLight {
         for (i, (point, shape)) in self.points.iter_mut().zip(&self.shapes).enumerate() {
             let light = Light { shape: shape.clone(), ..view.light.clone() };
             let seen = View { light: &light, ..*view };
-            let lookup = self.pipelines.of(neighbours(i, count).count());
+            let lookup = self.pipelines.of(i, count);
             point.maps.prepare(gpu, &seen, apart_m, lookup);
-            point.make_room(gpu, &self.borders, &self.pipelines, neighbours(i, count).count());
+            point.make_room(gpu, &self.borders, &self.pipelines, (i, count));
         }
         self.place(view);
         if count > 1 {
@@ -168,8 +168,9 @@ impl Inside for LinearLight {
             "map" => Some(0),
             // The texel's depth, and the share that is blended over.
             "skins" => Some(4 + 2),
-            // The receiver, its texel's depth, and a share for each neighbour.
-            "visibility" => Some(RECEIVER_BYTES + 4 + 2 * 2),
+            // The receiver, its texel's depth, and a share for each neighbour; or for one, what the
+            // point before sees, and what is blended over.
+            "visibility" => Some(RECEIVER_BYTES + 4 + 2 + 4 + 2),
             // What both ends see, and what is blended over.
             "pieces" => Some(2 * 4 + 2),
             _ => None,

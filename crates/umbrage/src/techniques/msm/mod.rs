@@ -79,13 +79,13 @@ impl Filter for Msm {
             if half { (PASSES_16, LOOKUP_16, Coding::Unorm) } else { (PASSES, LOOKUP, Coding::Single) };
         let recipe = Recipe { passes, channels: 4, coding, constants: Vec::new() };
         let stage = MomentStage::new(gpu, maps.size, &self.filtering, &recipe);
-        let reach = stage.reach();
+        let (reach, bytes) = (stage.reach(), stage.lookup_bytes());
         let constants = [
             ("MIPS", f64::from(u8::from(self.filtering.mips))),
             ("BLEEDING", self.bleeding),
             ("MOMENT_BIAS", if half { 6e-5 } else { 1e-5 }),
         ];
         let maps = MapTechnique::staged(gpu, maps, &lookup, reach, &constants, Some(Box::new(stage)))?;
-        Ok(Box::new(maps.with_every_caster()))
+        Ok(Box::new(maps.with_every_caster().reading(bytes)))
     }
 }

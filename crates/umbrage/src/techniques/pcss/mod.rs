@@ -75,6 +75,9 @@ impl Filter for Pcss {
         ];
         let stage = TapStage::light(gpu, Taps::grids(self.search, self.kernel), self.bounds);
         let maps = MapTechnique::staged(gpu, maps, &SHADER, 1.0, &constants, Some(Box::new(stage)))?;
-        Ok(Box::new(maps.soft()))
+        // The search looks at the light's centre besides.
+        let taps = u64::from(self.search * self.search + 1 + self.kernel * self.kernel);
+        let bounds = if self.bounds { TapStage::BOUNDS_BYTES } else { 0 };
+        Ok(Box::new(maps.soft().reading(4 * taps + bounds)))
     }
 }

@@ -76,6 +76,8 @@ impl Filter for PcssJitter {
             [("SEARCH", f64::from(self.search)), ("FILTER", f64::from(self.taps)), ("TESTS", f64::from(TESTS))];
         let stage = TapStage::light(gpu, Taps::new(self.noise, self.tile, self.search, self.taps), true);
         let maps = MapTechnique::staged(gpu, maps, &SHADER, 1.0, &constants, Some(Box::new(stage)))?;
-        Ok(Box::new(maps.soft().in_phases()))
+        // Of the first phase the light's centre, of the second that, too, and all taps.
+        let taps = u64::from(1 + self.search + 1 + self.taps);
+        Ok(Box::new(maps.soft().in_phases().reading(4 * taps + 2 * TapStage::BOUNDS_BYTES)))
     }
 }

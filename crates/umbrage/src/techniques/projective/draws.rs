@@ -1,5 +1,5 @@
-//! Pipelines and the stencil. The shadows of one plane are marked there with its number, and then
-//! the plane's pixels among them lose their light.
+//! Pipelines and the stencil. The pixels of a plane lose their light where casters fall: at once,
+//! or where the stencil has been marked with the plane's number.
 
 use crate::casters::{ByForm, CasterDraw, Form, Surface};
 use crate::fullscreen::target_texture;
@@ -20,7 +20,8 @@ pub(super) struct Draws {
     resolve_module: wgpu::ShaderModule,
     resolve_layout: wgpu::PipelineLayout,
     resolve: Option<(Normals, Resolve)>,
-    cast: ByForm<[wgpu::RenderPipeline; 3]>,
+    /// In the order of [`Way`].
+    cast: ByForm<[[wgpu::RenderPipeline; 3]; 2]>,
     stencil: Option<(wgpu::TextureView, (u32, u32))>,
 }
 
@@ -33,12 +34,32 @@ pub(super) struct Normals {
     pub are_needed: bool,
 }
 
-/// What writes visibility.
+/// How pixels lose their light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    /// Each fragment of a caster's shadow asks whether its pixel is in the plane.
+    AtOnce,
+    /// Fragments mark the stencil, and each marked pixel is asked once.
+    Marked,
+}
+
+impl Way {
+    const ALL: [Self; 2] = [Self::AtOnce, Self::Marked];
+}
+
+/// What writes visibility where no caster is drawn.
 pub(super) struct Resolve {
     /// Where the stencil has the plane's number.
     pub marked: wgpu::RenderPipeline,
-    /// On planes that the light shines on from behind.
-    pub behind: wgpu::RenderPipeline,
+    /// On planes that the light shines on from behind, in the order of [`Way`].
+    behind: [wgpu::RenderPipeline; 2],
+}
+
+impl Resolve {
+    /// Planes that the light shines on from behind.
+    pub fn behind(&self, way: Way) -> &wgpu::RenderPipeline {
+        &self.behind[way as usize]
+    }
 }
 
 impl Draws {
@@ -47,26 +68,26 @@ impl Draws {
             resolve_module: RESOLVE_SHADER.module(gpu),
             resolve_layout: gpu.pipeline_layout(&[Some(&Receivers::layout(gpu)), Some(&finder.layout)]),
             resolve: None,
-            cast: ByForm::new(cast(gpu, shadows, Form::OWN)),
+            cast: ByForm::new(Way::ALL.map(|way| cast(gpu, shadows, way, Form::OWN))),
             stencil: None,
         }
     }
 
-    /// Makes what receivers of this kind and size need.
-    pub fn prepare(&mut self, gpu: &Gpu, receivers: &Receivers, normals: Normals) {
+    /// Makes what receivers of this kind and size need, and the stencil where it is marked.
+    pub fn prepare(&mut self, gpu: &Gpu, receivers: &Receivers, normals: Normals, way: Way) {
         if self.resolve.as_ref().is_none_or(|(made_for, _)| *made_for != normals) {
-            let of = |entries, compare, reads| {
-                let how = [reads, normals.are_needed];
-                self.resolving(gpu, entries, (compare, StencilOperation::Keep), how)
-            };
-            let marked = normals.are_there && normals.are_needed;
+            let Normals { are_there, are_needed } = normals;
+            let switches = [are_there && are_needed, are_needed, are_there];
+            let keep = |compare| stencil_state(compare, StencilOperation::Keep);
+            let of = |entries, depth_stencil| self.resolving(gpu, entries, depth_stencil, switches);
+            let behind = ["around_behind", "dark_behind"];
             let made = Resolve {
-                marked: of(["around", "dark"], CompareFunction::Equal, marked),
-                behind: of(["around_behind", "dark_behind"], CompareFunction::Always, normals.are_there),
+                marked: of(["around", "dark"], keep(CompareFunction::Equal)),
+                behind: [of(behind, None), of(behind, keep(CompareFunction::Always))],
             };
             self.resolve = Some((normals, made));
         }
-        if self.stencil.as_ref().is_none_or(|(_, size)| *size != receivers.size) {
+        if way == Way::Marked && self.stencil.as_ref().is_none_or(|(_, size)| *size != receivers.size) {
             let texture = target_texture(gpu, "projected shadows", receivers.size, 1, FORMAT);
             self.stencil = Some((texture.create_view(&Default::default()), receivers.size));
         }
@@ -77,14 +98,14 @@ impl Draws {
         self.resolve.as_ref().map(|(_, resolve)| resolve)
     }
 
-    /// What marks shadows.
-    pub fn cast(&self, surface: Surface, form: &Form) -> Option<&wgpu::RenderPipeline> {
-        Some(&self.cast.get(form)?[surface as usize])
+    /// What draws casters.
+    pub fn cast(&self, way: Way, surface: Surface, form: &Form) -> Option<&wgpu::RenderPipeline> {
+        Some(&self.cast.get(form)?[way as usize][surface as usize])
     }
 
     /// Makes what draws casters in such buffers.
     pub fn follow(&mut self, gpu: &Gpu, shadows: &Shadows, forms: &[Form]) {
-        self.cast.follow(forms, |form| cast(gpu, shadows, form));
+        self.cast.follow(forms, |form| Way::ALL.map(|way| cast(gpu, shadows, way, form)));
     }
 
     /// The stencil, nothing of which is needed after the pass.
@@ -103,11 +124,12 @@ impl Draws {
         &self,
         gpu: &Gpu,
         [vertex, fragment]: [&str; 2],
-        stencil: (CompareFunction, StencilOperation),
-        [has_normals, is_coarse]: [bool; 2],
+        depth_stencil: Option<wgpu::DepthStencilState>,
+        switches: [bool; 3],
     ) -> wgpu::RenderPipeline {
-        let switch = |on: bool| f64::from(u8::from(on));
-        let constants = [("HAS_NORMALS", switch(has_normals)), ("COARSE", switch(is_coarse))];
+        let names = ["HAS_NORMALS", "COARSE", "KNOWS_CASTERS"];
+        let [a, b, c] = switches.map(|on| f64::from(u8::from(on)));
+        let constants = [(names[0], a), (names[1], b), (names[2], c)];
         gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(fragment),
             layout: Some(&self.resolve_layout),
@@ -118,7 +140,7 @@ impl Draws {
                 buffers: &[],
             },
             primitive: Default::default(),
-            depth_stencil: stencil_state(stencil),
+            depth_stencil,
             multisample: Default::default(),
             fragment: Some(wgpu::FragmentState {
                 module: &self.resolve_module,
@@ -132,7 +154,7 @@ impl Draws {
     }
 }
 
-fn stencil_state((compare, pass_op): (CompareFunction, StencilOperation)) -> Option<wgpu::DepthStencilState> {
+fn stencil_state(compare: CompareFunction, pass_op: StencilOperation) -> Option<wgpu::DepthStencilState> {
     let face = wgpu::StencilFaceState { compare, pass_op, ..wgpu::StencilFaceState::IGNORE };
     // Where nothing is written, drivers test before they shade.
     let write_mask = if pass_op == StencilOperation::Keep { 0 } else { !0 };
@@ -148,10 +170,15 @@ fn stencil_state((compare, pass_op): (CompareFunction, StencilOperation)) -> Opt
 /// In the order of [`Surface`]. Of solid casters that are wholly between plane and light the faces
 /// towards the light have the whole shadow; seen from the light's side of the plane, they are wound
 /// as they are seen from the light.
-fn cast(gpu: &Gpu, shadows: &Shadows, form: Form) -> [wgpu::RenderPipeline; 3] {
+fn cast(gpu: &Gpu, shadows: &Shadows, way: Way, form: Form) -> [wgpu::RenderPipeline; 3] {
     let module = CAST_SHADER.module(gpu);
-    let target = wgpu::ColorTargetState { write_mask: wgpu::ColorWrites::empty(), ..VisibilityTarget::FORMAT.into() };
-    let pipeline = |vertex: &str, fragment, cull_mode| {
+    let write_mask = if way == Way::Marked { wgpu::ColorWrites::empty() } else { wgpu::ColorWrites::ALL };
+    let target = wgpu::ColorTargetState { write_mask, ..VisibilityTarget::FORMAT.into() };
+    let depth_stencil = match way {
+        Way::AtOnce => None,
+        Way::Marked => stencil_state(CompareFunction::Always, StencilOperation::Replace),
+    };
+    let pipeline = |vertex: &str, [at_once, marked]: [_; 2], cull_mode| {
         CasterDraw {
             label: "projected casters",
             form,
@@ -160,17 +187,17 @@ fn cast(gpu: &Gpu, shadows: &Shadows, form: Form) -> [wgpu::RenderPipeline; 3] {
             more: None,
             module: &module,
             vertex,
-            fragment: Some(fragment),
+            fragment: Some(if way == Way::Marked { marked } else { at_once }),
             constants: &[],
             targets: &[Some(target.clone())],
-            depth_stencil: stencil_state((CompareFunction::Always, StencilOperation::Replace)),
+            depth_stencil: depth_stencil.clone(),
             cull_mode,
         }
         .pipeline(gpu)
     };
     [
-        pipeline("opaque", "whole", Some(wgpu::Face::Back)),
-        pipeline("opaque", "above", None),
-        pipeline("masked", "cut_out", None),
+        pipeline("opaque", ["whole_at_once", "whole"], Some(wgpu::Face::Back)),
+        pipeline("opaque", ["above_at_once", "above"], None),
+        pipeline("masked", ["cut_out_at_once", "cut_out"], None),
     ]
 }

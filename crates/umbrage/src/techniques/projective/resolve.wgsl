@@ -8,32 +8,35 @@ struct Plane {
     @location(1) @interpolate(flat) normal: vec4f,
 }
 
-// A rectangle of two triangles.
-fn rectangle(plane: FoundPlane, index: u32) -> Plane {
-    var corners = array(vec2u(0u, 0u), vec2u(1u, 0u), vec2u(0u, 1u), vec2u(0u, 1u), vec2u(1u, 0u), vec2u(1u, 1u));
-    let place = select(plane.low, plane.high, corners[index] == vec2u(1u));
+// A quad of two triangles.
+fn quad(plane: FoundPlane, index: u32) -> Plane {
+    var corners = array(0u, 1u, 2u, 0u, 2u, 3u);
+    let corner = corners[index];
+    let two = plane.corners[corner >> 1u];
+    let place = select(two.xy, two.zw, (corner & 1u) == 1u);
     return Plane(vec4f(place, 0.0, 1.0), plane.across, vec4f(plane.normal, plane.snapped));
 }
 
 // The instance is the number of the plane.
 @vertex
 fn around(@builtin(vertex_index) index: u32, @builtin(instance_index) number: u32) -> Plane {
-    return rectangle(finder.planes[number], index);
+    return quad(finder.planes[number], index);
 }
 
 @vertex
 fn around_behind(@builtin(vertex_index) index: u32, @builtin(instance_index) number: u32) -> Plane {
-    return rectangle(finder.behind[number], index);
+    return quad(finder.behind[number], index);
 }
 
 // Where places are known so coarsely that a pixel may be in several planes, the nearest one counts.
 override COARSE: bool = false;
+// The host says what casts shadows, along with normals.
+override KNOWS_CASTERS: bool = false;
 
-fn is_dark(in: Plane, casts_only: bool) -> bool {
+fn is_dark(in: Plane) -> bool {
     let depth = textureLoad(receiver_depth, vec2i(in.position.xy), 0);
     let shown = shown_at(in.position.xy, depth);
-    let is_there = depth != finder.eye.background_depth && (shown.surface.casts || !casts_only);
-    let is_in = is_there && is_in_plane(shown, in.across, in.normal);
+    let is_in = depth != finder.eye.background_depth && is_in_plane(shown, in.across, in.normal);
     if !COARSE || !is_in {
         return is_in;
     }
@@ -43,7 +46,7 @@ fn is_dark(in: Plane, casts_only: bool) -> bool {
 // Where the stencil says that shadows fall.
 @fragment
 fn dark(in: Plane) -> @location(0) f32 {
-    if !is_dark(in, false) {
+    if !is_dark(in) {
         discard;
     }
     return 0.0;
@@ -52,7 +55,8 @@ fn dark(in: Plane) -> @location(0) f32 {
 // On planes that face away from the light.
 @fragment
 fn dark_behind(in: Plane) -> @location(0) f32 {
-    if !is_dark(in, true) {
+    let casts = !KNOWS_CASTERS || (textureLoad(receiver_normal, vec2i(in.position.xy), 0).x & 1u) != 0u;
+    if !casts || !is_dark(in) {
         discard;
     }
     return 0.0;

@@ -1,7 +1,8 @@
 //! A frame: choose planes and casters, find the pixels of planes, draw shadows on them.
 
-use super::draws::{Draws, Normals};
+use super::draws::{Draws, Normals, Way};
 use super::views::{self, Views};
+use crate::depth_maps::RECEIVER_BYTES;
 use crate::planar::{Chosen, Finder, Shadows, Wanted, nearest_w};
 use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
 use crate::{error::Error, gpu::Gpu, inline::Lent, passes::Passes, view::View, visibility::VisibilityTarget};
@@ -15,6 +16,7 @@ pub(super) struct Projected {
     finder: Finder,
     shadows: Shadows,
     draws: Draws,
+    way: Way,
     stats: Stats,
     /// The light casts shadows, and there is something to cast them.
     is_shadowed: bool,
@@ -23,6 +25,11 @@ pub(super) struct Projected {
 
 /// Pixels that a rasteriser may shift surfaces by and still show them in their planes.
 const LEAST_SHIFT: f32 = 1e-3;
+
+/// Fewer pixels of planes for each triangle make marking the cheaper way, and so do more fragments
+/// of shadows for each pixel.
+const LEAST_PIXELS: f64 = 32.0;
+const MOST_DEPTH: f64 = 2.0;
 
 /// Of a rectangle of two triangles.
 const CORNERS: u32 = 6;
@@ -37,6 +44,7 @@ impl Projected {
             gpu: gpu.clone(),
             finder,
             shadows,
+            way: Way::Marked,
             stats: Stats::default(),
             is_shadowed: false,
             views: None,
@@ -51,27 +59,46 @@ impl Projected {
         self.chosen.upload(passes);
     }
 
+    /// How shadows are drawn: marking costs what planes cover of the screen; asking at once costs
+    /// more for each fragment, and triangles have more fragments than pixels.
+    fn best_way(&self, view: &View<'_>) -> Way {
+        let planes = self.chosen.planes().iter().zip(self.chosen.rects());
+        let area = |[_, _, width, height]: &[u32; 4]| f64::from(*width) * f64::from(*height);
+        let (pixels, fragments) = planes.fold((0.0, 0.0), |(pixels, fragments), (plane, rect)| {
+            (pixels + area(rect), fragments + plane.depth * area(rect))
+        });
+        let triangles: u64 = self.chosen.lists().iter().map(|list| list.triangles(view.casters)).sum();
+        let are_few = triangles as f64 * LEAST_PIXELS <= pixels && fragments <= MOST_DEPTH * pixels;
+        if are_few { Way::AtOnce } else { Way::Marked }
+    }
+
     fn draw(&self, passes: &mut Passes<'_>, view: &View<'_>, visibility: &VisibilityTarget) {
         let Some(resolve) = self.draws.resolve() else { return };
-        let mut pass = passes.render("projected shadows", &[visibility.overwrite()], self.draws.attachment());
+        let stencil = if self.way == Way::Marked { self.draws.attachment() } else { None };
+        let mut pass = passes.render("projected shadows", &[visibility.overwrite()], stencil);
         let bind = |pass: &mut wgpu::RenderPass<'_>| {
             pass.set_bind_group(0, &view.receivers.bind_group, &[]);
             pass.set_bind_group(1, &self.finder.bind_group, &[]);
         };
         if !self.chosen.behind().is_empty() {
-            pass.set_pipeline(&resolve.behind);
+            pass.set_pipeline(resolve.behind(self.way));
             bind(&mut pass);
             pass.draw(0..CORNERS, 0..self.chosen.behind().len() as u32);
+        }
+        let cast = |pass: &mut wgpu::RenderPass<'_>, plane: usize| {
+            let [x, y, width, height] = self.chosen.rects()[plane];
+            pass.set_scissor_rect(x, y, width, height);
+            self.shadows.bind(pass, plane);
+            self.chosen.draw(pass, view.casters, plane, |surface, form| self.draws.cast(self.way, surface, form));
+        };
+        if self.way == Way::AtOnce {
+            (0..self.chosen.planes().len()).for_each(|plane| cast(&mut pass, plane));
+            return;
         }
         let (width, height) = view.receivers.size;
         for (id, planes) in (1..).zip(apart(&self.chosen.rects()[..self.chosen.planes().len()])) {
             pass.set_stencil_reference(id);
-            for plane in planes.clone() {
-                let [x, y, width, height] = self.chosen.rects()[plane];
-                pass.set_scissor_rect(x, y, width, height);
-                self.shadows.bind(&mut pass, plane);
-                self.chosen.draw(&mut pass, view.casters, plane, |surface, form| self.draws.cast(surface, form));
-            }
+            planes.clone().for_each(|plane| cast(&mut pass, plane));
             pass.set_scissor_rect(0, 0, width, height);
             pass.set_pipeline(&resolve.marked);
             bind(&mut pass);
@@ -102,7 +129,9 @@ impl Technique for Projected {
         let is_coarse = is_shifted || self.wanted.tolerance > 0.0 || view.camera.background_depth() != 0.0;
         let normals = Normals { are_there: view.receivers.has_normals, are_needed: is_coarse };
         self.draws.follow(gpu, &self.shadows, view.casters.forms());
-        self.draws.prepare(gpu, view.receivers, normals);
+        self.way = if is_coarse { Way::Marked } else { self.best_way(view) };
+        self.draws.prepare(gpu, view.receivers, normals, self.way);
+        self.shadows.prepare(gpu, view.receivers);
         if let Some(views) = &mut self.views {
             views.prepare(gpu, view.receivers, &self.finder);
         }
@@ -111,7 +140,7 @@ impl Technique for Projected {
         let casting = view.casters.casting().len() as u32;
         self.is_shadowed = view.light.casts && casting > 0;
         self.stats = Stats {
-            draws: apart(&self.chosen.rects()[..lists.len()]).count() as u32
+            draws: if self.way == Way::Marked { apart(&self.chosen.rects()[..lists.len()]).count() as u32 } else { 0 }
                 + u32::from(!self.chosen.behind().is_empty())
                 + lists.iter().map(|list| list.draws()).sum::<u32>(),
             triangles: lists.iter().map(|list| list.triangles(view.casters)).sum(),
@@ -158,6 +187,15 @@ impl Technique for Projected {
 impl Inside for Projected {
     fn stats(&self) -> Stats {
         self.stats
+    }
+
+    fn reads(&self, pass: &str) -> Option<u64> {
+        match pass {
+            // Depth, and the normal where that tells planes apart, or what casts shadows.
+            "projected shadows" => Some(RECEIVER_BYTES),
+            "visibility" => Some(0),
+            _ => None,
+        }
     }
 
     fn counts(&self) -> Vec<(&'static str, u64)> {

@@ -16,6 +16,7 @@ pub(super) const LOOKUP_SHADER: Shader = Shader::new("filtered projected shadows
 /// Of the textures: what is in shadow is 0 to 1, the rest 2.
 pub(super) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
 pub(super) const LIT: f64 = 2.0;
+pub(super) const TEXEL_BYTES: u64 = 2;
 
 /// What a frame draws with.
 pub(super) struct Draws {

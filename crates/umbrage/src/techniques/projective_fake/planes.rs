@@ -47,7 +47,20 @@ pub(super) struct Blur {
 /// Shadows are looked up no farther away than this share of what is seen of a plane.
 const FARTHEST: f64 = 0.5;
 
+/// Taps along each side of the grid that blockers are searched for with, and by how much each next
+/// one is smaller, down to half a texel: see `lookup.wgsl`.
+const SEARCH: u64 = 5;
+const CLOSER: f64 = 0.3;
+
 impl Blur {
+    /// Texels that a pixel reads at most.
+    pub fn texels(&self) -> u64 {
+        let rounds = (2.0 * f64::from(self.size)).ln() / (1.0 / CLOSER).ln();
+        let searched = if self.softness == Softness::Light { rounds.ceil() as u64 * SEARCH * SEARCH } else { 0 };
+        // Between the middles of four each.
+        searched + 4 * u64::from(self.kernel * self.kernel)
+    }
+
     /// How far beyond what is seen of a plane shadows matter, metres.
     pub fn margin(&self, view: &View<'_>, plane: &LitPlane) -> f64 {
         let seen = (plane.high - plane.low).max_element();

@@ -1,7 +1,8 @@
 //! A frame: choose planes and casters, draw a texture for each plane, look it up.
 
-use super::draws::{Draws, LIT};
+use super::draws::{Draws, LIT, TEXEL_BYTES};
 use super::planes::{Blur, clip_from_eye};
+use crate::depth_maps::RECEIVER_BYTES;
 use crate::fullscreen::attachment;
 use crate::planar::{Chosen, Finder, LitPlane, Shadows, Wanted};
 use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
@@ -88,6 +89,7 @@ impl Technique for Filtered {
         let planes = self.chosen.planes().len() as u32;
         self.draws.follow(gpu, &self.shadows, view.casters.forms());
         self.draws.prepare(gpu, view.receivers, &self.finder, planes, &self.blur);
+        self.shadows.prepare(gpu, view.receivers);
         let lists = self.chosen.lists();
         let drawn = lists.iter().map(|list| list.drawn()).sum();
         let casting = view.casters.casting().len() as u32;
@@ -139,6 +141,15 @@ impl Technique for Filtered {
 impl Inside for Filtered {
     fn stats(&self) -> Stats {
         self.stats
+    }
+
+    fn reads(&self, pass: &str) -> Option<u64> {
+        match pass {
+            // What is blended over.
+            "heights of casters" => Some(TEXEL_BYTES),
+            "visibility" => Some(RECEIVER_BYTES + self.blur.texels() * TEXEL_BYTES),
+            _ => None,
+        }
     }
 
     fn counts(&self) -> Vec<(&'static str, u64)> {

@@ -24,13 +24,14 @@ struct SmoothieLight {
     low: vec3f,
     face: u32,
     high: vec3f,
-    is_parallel: u32,
+    pad: u32,
 }
 
 @group(3) @binding(0) var<uniform> smoothie_light: SmoothieLight;
 // The layer of the depth maps.
 @group(3) @binding(1) var map_depth: texture_depth_2d;
 
+// Which face a light has does not differ within a draw: fragment shaders have it as a constant.
 const SPHERE: u32 = 0u;
 const DISC: u32 = 1u;
 const SQUARE: u32 = 2u;
@@ -52,6 +53,10 @@ struct Smoothie {
 
 // Nowhere near a receiver.
 const NO_SMOOTHIE: Smoothie = Smoothie(2.0, 0.0);
+
+fn is_parallel() -> bool {
+    return !(PERSPECTIVE || PARABOLOID);
+}
 
 fn to_light(way: vec3f) -> vec3f {
     return vec3f(
@@ -98,18 +103,18 @@ fn nearer_in_squares(nearest: vec2f, a: vec2f, way: vec2f, over: f32, under: f32
 }
 
 // A place on a light that is a square, or a line in the plane with this normal.
-fn in_square(place: vec3f, normal: vec3f) -> vec2f {
+fn in_square(place: vec3f, normal: vec3f, face: u32) -> vec2f {
     let across = cross(vec3f(1.0, 0.0, 0.0), normal) / LINE_WIDTH;
-    return vec2f(place.x, select(place.y, dot(place, across), smoothie_light.face == LINE));
+    return vec2f(place.x, select(place.y, dot(place, across), face == LINE));
 }
 
 // What the light's plane is perpendicular to, for what lies in this direction.
-fn plane_of_light(way: vec3f) -> vec3f {
+fn plane_of_light(way: vec3f, face: u32) -> vec3f {
     let flat = vec3f(0.0, 0.0, select(1.0, -1.0, way.z < 0.0));
     let of_line = vec3f(0.0, way.yz);
-    let other = select(way, of_line, smoothie_light.face == LINE);
+    let other = select(way, of_line, face == LINE);
     let unit = other * inverseSqrt(max(dot(other, other), 1e-30));
-    return select(unit, flat, smoothie_light.face == DISC || smoothie_light.face == SQUARE);
+    return select(unit, flat, face == DISC || face == SQUARE);
 }
 
 // An end of an edge as a receiver sees it: the place on the light that it is in line with, times
@@ -138,7 +143,7 @@ struct Line {
 fn end_seen(p: vec3f, line: Line) -> End {
     let b = dot(line.normal, p);
     let before = b - line.distance + line.beyond;
-    if smoothie_light.is_parallel != 0u {
+    if is_parallel() {
         return End(vec3f(p.xy - line.at.xy, 0.0), before, before);
     }
     let scale = b / line.distance;
@@ -147,10 +152,9 @@ fn end_seen(p: vec3f, line: Line) -> End {
 
 // The smoothie of an edge from `start` to `end` at a point `at`, all in the light's space, where
 // what the light sees lies at depth `behind`; that of `at` is `depth`, and `per_metre` how depth
-// changes under parallel light. `in_squares`: the light is a square or a line.
-fn smoothie_at(start: vec3f, end: vec3f, at: vec3f, depth: f32, per_metre: f32, behind: f32, in_squares: bool) -> Smoothie {
-    let is_parallel = smoothie_light.is_parallel != 0u;
-    let normal = select(plane_of_light(at), vec3f(0.0, 0.0, 1.0), is_parallel);
+// changes under parallel light.
+fn smoothie_at(start: vec3f, end: vec3f, at: vec3f, depth: f32, per_metre: f32, behind: f32, face: u32) -> Smoothie {
+    let normal = select(plane_of_light(at, face), vec3f(0.0, 0.0, 1.0), is_parallel());
     let distance = dot(normal, at);
     let beyond = (depth - behind) / per_metre;
     let line = Line(at, normal, distance, behind / depth, beyond);
@@ -165,15 +169,15 @@ fn smoothie_at(start: vec3f, end: vec3f, at: vec3f, depth: f32, per_metre: f32, 
     let first_place = a.place / a.before;
     let last_place = b.place / b.before;
     var nearest: vec2f;
-    if in_squares {
-        nearest = nearest_in_squares(in_square(first_place, normal), in_square(last_place, normal));
+    if face == SQUARE || face == LINE {
+        nearest = nearest_in_squares(in_square(first_place, normal, face), in_square(last_place, normal, face));
     } else {
         nearest = nearest_on(first_place, last_place);
     }
     // What is evenly spread on the light is not along the edge.
     let place = nearest.y * a.before / max(nearest.y * a.before + (1.0 - nearest.y) * b.before, 1e-30);
     let away = mix(a.distance, b.distance, place);
-    let fin_depth = select(depth * distance / away, behind + away * per_metre, is_parallel);
+    let fin_depth = select(depth * distance / away, behind + away * per_metre, is_parallel());
     let is_there = part.x < part.y && a.before > 0.0 && b.before > 0.0 && fin_depth > behind;
     return Smoothie(select(2.0, nearest.x, is_there), fin_depth);
 }

@@ -62,7 +62,7 @@ fn fin_of_texels(edge: ContourEdge, vertex: u32) -> FinCorner {
 fn most_of_extent(p: vec3f, per_metre: f32) -> f32 {
     let way = way_of_light(p);
     let reach = smoothie_light.reach;
-    if smoothie_light.is_parallel != 0u {
+    if is_parallel() {
         let unit = way / length(way);
         let room = select(p - smoothie_light.low, smoothie_light.high - p, unit > vec3f(0.0));
         let sure = abs(unit) - reach;
@@ -82,7 +82,7 @@ fn nearer(way: vec3f) -> f32 {
     let distance = length(way);
     let extent = light_extent(way / distance) / distance;
     let share = select(extent, extent * extent, smoothie_light.face == SPHERE);
-    return select(1.0 / max(1.0 - share, 1.0 / MOST_NEARER), 1.0, smoothie_light.is_parallel != 0u);
+    return select(1.0 / max(1.0 - share, 1.0 / MOST_NEARER), 1.0, is_parallel());
 }
 
 // A corner of what holds the fin: on the edge's own line and outwards from there, so that it is as
@@ -114,9 +114,8 @@ fn fin_of_light(whole: ContourEdge, vertex: u32) -> FinCorner {
     let distance = dot(to_line, to_line);
     let scale = min(distance / max(dot(to_line, turned), distance / WIDEST), WIDEST);
     let wide = most * light_extent(outward) * max(1.0, scale * length(turned) / length(way));
-    let is_parallel = smoothie_light.is_parallel != 0u;
-    let base = select(smoothie_light.center + turned * scale, p + along * (most * light_extent(along)), is_parallel);
-    let across = select(wide, most * light_extent(outward), is_parallel);
+    let base = select(smoothie_light.center + turned * scale, p + along * (most * light_extent(along)), is_parallel());
+    let across = select(wide, most * light_extent(outward), is_parallel());
     let inward = min(GUARD / texels_per_metre(base, outward), across);
     let corner = base + outward * select(across, -inward, is_on_other_side(vertex));
     let clip = moved_off_light(clip_of(corner));
@@ -161,7 +160,7 @@ fn paraboloid_way(position: vec4f) -> vec3f {
 }
 
 // The smoothie that a fragment shows, where what the light sees lies at depth `behind`.
-fn smoothie_of(in: FinCorner, behind: f32, in_squares: bool) -> Smoothie {
+fn smoothie_of(in: FinCorner, behind: f32, face: u32) -> Smoothie {
     if WIDTH > 0.0 {
         let found = nearest_on(vec3f(in.start.xy - in.position.xy, 0.0), vec3f(in.end.xy - in.position.xy, 0.0));
         let depth = mix(in.start.z, in.end.z, found.y);
@@ -169,9 +168,9 @@ fn smoothie_of(in: FinCorner, behind: f32, in_squares: bool) -> Smoothie {
     }
     if PARABOLOID {
         let way = to_light(paraboloid_way(in.position));
-        return smoothie_at(in.start, in.end, way, map_view.near, 1.0, behind, in_squares);
+        return smoothie_at(in.start, in.end, way, map_view.near, 1.0, behind, face);
     }
-    return smoothie_at(in.start, in.end, in.at, in.place.x / in.place.y, in.per_metre / in.place.y, behind, in_squares);
+    return smoothie_at(in.start, in.end, in.at, in.place.x / in.place.y, in.per_metre / in.place.y, behind, face);
 }
 
 // What a fragment shows; a share of more than 1 is nothing.
@@ -181,10 +180,10 @@ struct Seen {
     behind: f32,
 }
 
-fn seen_smoothie(in: FinCorner, in_squares: bool) -> Seen {
+fn seen_smoothie(in: FinCorner, face: u32) -> Seen {
     let behind = depth_of(textureLoad(map_depth, vec2i(in.position.xy), 0), map_view.farthest);
     let counted = select(0.0, behind, REMAP);
-    let found = smoothie_of(in, counted, in_squares);
+    let found = smoothie_of(in, counted, face);
     let is_there = found.share < 1.0 && found.depth > behind;
     let of_cone = mix(found.depth, counted, found.share);
     return Seen(select(2.0, found.share, is_there), select(found.depth, of_cone, CONES), behind);
@@ -200,13 +199,12 @@ struct Least {
 // apart however near they are: from a point 1 − b/r. Where there is nothing behind, its depth, from
 // a point the inverse of its distance.
 fn before(depth: f32, behind: f32) -> f32 {
-    let is_parallel = smoothie_light.is_parallel != 0u;
-    let gap = (depth - behind) / select(depth, 1.0, is_parallel);
-    return select(gap, depth / select(map_view.near, 1.0, is_parallel), behind == 0.0);
+    let gap = (depth - behind) / select(depth, 1.0, is_parallel());
+    return select(gap, depth / select(map_view.near, 1.0, is_parallel()), behind == 0.0);
 }
 
-fn least(in: FinCorner, in_squares: bool) -> Least {
-    let seen = seen_smoothie(in, in_squares);
+fn least(in: FinCorner, face: u32) -> Least {
+    let seen = seen_smoothie(in, face);
     if seen.share > 1.0 {
         discard;
     }
@@ -214,24 +212,30 @@ fn least(in: FinCorner, in_squares: bool) -> Least {
 }
 
 @fragment
-fn fin_round(in: FinCorner) -> Least {
-    return least(in, false);
+fn fin_of_sphere(in: FinCorner) -> Least {
+    return least(in, SPHERE);
 }
 
 @fragment
-fn fin_square(in: FinCorner) -> Least {
-    return least(in, true);
+fn fin_of_disc(in: FinCorner) -> Least {
+    return least(in, DISC);
 }
 
-fn is_in_squares() -> bool {
-    return smoothie_light.face == SQUARE || smoothie_light.face == LINE;
+@fragment
+fn fin_of_square(in: FinCorner) -> Least {
+    return least(in, SQUARE);
+}
+
+@fragment
+fn fin_of_line(in: FinCorner) -> Least {
+    return least(in, LINE);
 }
 
 // To be looked at: the depth, and the share before it is divided by 1 − b/r, which is that of a
 // receiver infinitely far away.
 @fragment
 fn fin_depth(in: FinCorner) -> @builtin(frag_depth) f32 {
-    let seen = seen_smoothie(in, is_in_squares());
+    let seen = seen_smoothie(in, smoothie_light.face);
     if seen.share > 1.0 {
         discard;
     }
@@ -240,7 +244,7 @@ fn fin_depth(in: FinCorner) -> @builtin(frag_depth) f32 {
 
 @fragment
 fn fin_alpha(in: FinCorner) -> @location(0) vec4f {
-    let found = smoothie_of(in, 0.0, is_in_squares());
+    let found = smoothie_of(in, 0.0, smoothie_light.face);
     if !(found.share < 1.0) {
         discard;
     }

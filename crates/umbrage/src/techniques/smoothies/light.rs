@@ -15,7 +15,7 @@ shader_struct! {
         low: [f32; 3],
         face: u32,
         high: [f32; 3],
-        is_parallel: u32,
+        pad: u32,
     }
 }
 
@@ -50,12 +50,7 @@ impl SmoothieLight {
             low: single(receivers.min),
             high: single(receivers.max),
             face: if form.face == Face::Picture { Face::Square } else { form.face } as u32,
-            is_parallel: u32::from(form.center.w == 0.0),
+            pad: 0,
         }
-    }
-
-    /// True for lights whose rim is straight: squares and lines.
-    pub(super) fn is_square(&self) -> bool {
-        self.face == Face::Square as u32 || self.face == Face::Line as u32
     }
 }

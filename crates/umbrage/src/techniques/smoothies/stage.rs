@@ -6,7 +6,7 @@ use super::Smoothies;
 use super::VIEWS;
 use super::light::SmoothieLight;
 use super::targets::{DEPTH, LEAST, Layered};
-use crate::area_light::Form;
+use crate::area_light::{Face, Form};
 use crate::casters::Casters;
 use crate::depth_maps::{EdgeDraw, EdgePass, EdgeTarget, LAYER_NAMES, MapFrame, Stage};
 use crate::fullscreen::{self, FLOATS, UNIFORM, bind, layer_view, layout};
@@ -28,6 +28,8 @@ pub(super) struct SmoothieStage {
     of_fins: wgpu::BindGroupLayout,
     made: Option<Made>,
     light: SmoothieLight,
+    /// How its fins are drawn.
+    draw: Draw,
     /// The same with all receivers that there could be, where somebody looks at fins.
     shown_light: Option<SmoothieLight>,
     /// By layer: what it was drawn for.
@@ -64,14 +66,26 @@ enum Shown {
 /// How edges are drawn, by number of [`EdgeDraw`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Draw {
-    Round,
+    Sphere,
+    Disc,
     Square,
+    Line,
     Depth,
     Alpha,
 }
 
 impl Draw {
-    const ALL: [Self; 4] = [Self::Round, Self::Square, Self::Depth, Self::Alpha];
+    const ALL: [Self; 6] = [Self::Sphere, Self::Disc, Self::Square, Self::Line, Self::Depth, Self::Alpha];
+
+    /// Of fins, by the light's face.
+    fn of(face: Face) -> Self {
+        match face {
+            Face::Sphere => Self::Sphere,
+            Face::Disc => Self::Disc,
+            Face::Square | Face::Picture => Self::Square,
+            Face::Line => Self::Line,
+        }
+    }
 
     fn edges(self) -> EdgeDraw {
         let least = wgpu::BlendComponent {
@@ -88,9 +102,12 @@ impl Draw {
             stencil: Default::default(),
             bias: Default::default(),
         };
+        let both = || vec![target.clone(), target.clone()];
         let (entry, targets, depth_stencil) = match self {
-            Self::Round => ("fin_round", vec![target.clone(), target], None),
-            Self::Square => ("fin_square", vec![target.clone(), target], None),
+            Self::Sphere => ("fin_of_sphere", both(), None),
+            Self::Disc => ("fin_of_disc", both(), None),
+            Self::Square => ("fin_of_square", both(), None),
+            Self::Line => ("fin_of_line", both(), None),
             Self::Depth => ("fin_depth", Vec::new(), Some(nearest)),
             Self::Alpha => ("fin_alpha", vec![target], None),
         };
@@ -124,6 +141,7 @@ impl SmoothieStage {
             of_fins,
             made: None,
             light: SmoothieLight::default(),
+            draw: Draw::Sphere,
             shown_light: None,
             drawn: Vec::new(),
             is_hard: false,
@@ -166,6 +184,7 @@ impl Stage for SmoothieStage {
         self.make(gpu, maps);
         let shape = &view.light.shape;
         let form = Form::of(shape, false, 0.0);
+        self.draw = Draw::of(form.face);
         let receivers = self.receivers(frame);
         self.light = SmoothieLight::new(&form, view.casters.origin(), &receivers);
         // Who looks at fins wants to see all of them.
@@ -188,14 +207,12 @@ impl Stage for SmoothieStage {
         if !self.is_hard {
             self.pass.find(passes, casters, frame);
         }
-        let is_square = self.follows_light && self.light.is_square();
-        let draw = if is_square { Draw::Square } else { Draw::Round };
         let pass = Some(&self.pass).filter(|_| !self.is_hard);
         let all = |passes: &mut Passes<'_>, draw| {
             let new = frame.views.iter().enumerate().filter(|(_, view)| is_new(view.layer));
             new.map(|(i, view)| made.record(passes, pass, (i, view.layer as usize), draw)).sum::<u32>()
         };
-        let mut draws = all(passes, draw);
+        let mut draws = all(passes, self.draw);
         if let (Some((shown, _)), Some(light)) = (&made.shown, &self.shown_light) {
             passes.upload(&made.light, bytemuck::bytes_of(light));
             draws += all(passes, shown.draw());
