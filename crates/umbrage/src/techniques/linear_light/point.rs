@@ -58,9 +58,8 @@ impl Point {
         let (neighbours, before) = (neighbours(i, count).count(), pipelines.before(i).filter(|_| count > 1));
         let frame = self.maps.frame();
         let Some(maps) = frame.texture.as_ref().filter(|_| !frame.views.is_empty()) else { return };
-        let fits = |made: &Made| {
-            made.maps == *maps && made.channels.len() == neighbours && made.before.as_ref() == before
-        };
+        let fits =
+            |made: &Made| made.maps == *maps && made.channels.len() == neighbours && made.before.as_ref() == before;
         if self.made.as_ref().is_some_and(fits) {
             return;
         }
