@@ -16,6 +16,7 @@ mod soak;
 mod tables;
 mod test;
 mod validation;
+mod web;
 mod window;
 
 use anyhow::{Result, bail};
@@ -30,8 +31,11 @@ cargo xtask COMMAND
   portable
           check that the library compiles for browsers, and with the oldest toolchain that is promised
   package check that a registry would take the library's crates
-  browser compile every shader in Chromium, whose compiler of WGSL is another one than wgpu's, and draw a picture with
-          every technique there
+  browser compile every shader in Chromium, whose compiler of WGSL is another one than wgpu's, draw a picture with
+          every technique there, and open the laboratory on its page
+  web [--serve [PORT]]
+          build the laboratory as a page, and a page for learners with each technique; writes out/web/, which any server
+          of static files can hand out, and so does --serve
   window  open the laboratory on a virtual screen and use it with real keys and a real mouse (Debian, Ubuntu)
   soak MINUTES
           draw with all techniques while everything changes: memory has to stay level, and pictures right
@@ -74,6 +78,7 @@ fn run() -> Result<()> {
         ["portable"] => portable::run(),
         ["package"] => package::run(),
         ["browser"] => browser::run(),
+        ["web", rest @ ..] => web::run(rest),
         ["soak", minutes] => soak::run(minutes),
         ["validation"] => validation::run(),
         ["window"] => window::run(),

@@ -3,7 +3,8 @@
 //! [`Tracer::new`] takes a scene, [`Tracer::geometry`] finds what a camera sees, and
 //! [`Tracer::visibility`] computes for each pixel the share of a light that its surface sees past
 //! the casting triangles. What visibility is, the scene format specifies; [`closed_form`] holds the
-//! formulas that the tracer is tested against. [`Progressive`] traces the same in slices, for windows.
+//! formulas that the tracer is tested against. [`Progressive`] traces the same in slices, for
+//! windows.
 
 mod bvh;
 pub mod closed_form;

@@ -15,7 +15,7 @@ const POINTS: [u32; 6] = [4, 4, 8, 16, 32, 64];
 /// The first round looks at every fourth pixel across and down, then at every second, then at all.
 const COARSEST: u32 = 4;
 
-/// Samples for each thread between two questions whether to go on: some milliseconds.
+/// Samples for each thread between two questions whether to continue: some milliseconds.
 const BATCH: u32 = 2048;
 
 /// The true visibility of a light, traced in slices: for windows, which show it while it gets
@@ -31,7 +31,8 @@ const BATCH: u32 = 2048;
 /// # use umbrage_reference::{Progressive, Tracer};
 /// let scene = (scenes::find("contact").unwrap().build)(0.2);
 /// let tracer = Arc::new(Tracer::new(&scene));
-/// let mut truth = Progressive::new(tracer, &scene.camera, (32, 24), &scene.lights[0], &scene.textures);
+/// let (camera, light) = (&scene.camera, &scene.lights[0]);
+/// let mut truth = Progressive::new(tracer, camera, (32, 24), light, &scene.textures);
 /// while truth.samples() < 64 && truth.advance(|| false) {}
 /// println!("{:?} after {} samples", truth.standard_error(), truth.samples());
 /// ```

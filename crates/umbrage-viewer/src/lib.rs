@@ -27,6 +27,9 @@ mod state;
 mod truth;
 mod ui;
 mod undo;
+mod walk;
+#[cfg(target_family = "wasm")]
+pub mod web;
 
 pub use app::{Lab, Options};
 #[cfg(not(target_family = "wasm"))]
@@ -35,6 +38,7 @@ pub use observe::OBSERVE;
 pub use see::Reading;
 pub use show::SHADER;
 pub use state::{Layout, PaneState, State};
+pub use walk::Walk;
 
 /// How many times as strong as they are errors can be shown.
 pub(crate) const GAINS: [f32; 2] = [1.0, 64.0];

@@ -1,7 +1,10 @@
 //! Every shader, and a picture with every technique, in a real browser: Chromium's compiler of
 //! WGSL, Tint, is another one than wgpu's, and so is what checks and runs the commands.
 
+mod laboratory;
 mod pictures;
+
+pub use pictures::binder;
 
 use crate::shell;
 use anyhow::{Context, Result, bail, ensure};
@@ -34,8 +37,8 @@ const FLAGS: [&str; 10] = [
 const PATIENCE: Duration = Duration::from_secs(300);
 
 /// Makes every shader module, and every compute pipeline, in Chromium, and fails where one fails or
-/// comes with a warning; then draws a picture with every technique there. Where there is no
-/// Chromium it says so.
+/// comes with a warning; then draws a picture with every technique there, and opens the laboratory
+/// on its page. Where there is no Chromium it says so.
 pub fn run() -> Result<()> {
     let Some(browser) = BROWSERS.into_iter().find(|name| starts(name)) else {
         println!("nothing was checked, since there is no Chromium: {}", BROWSERS.join(", "));
@@ -52,15 +55,16 @@ pub fn run() -> Result<()> {
     shell::run(write)?;
     let page = folder.join("shaders.html");
     fs::write(&page, PAGE.replace("SHADERS", &pairs(&sources)?))?;
-    report(&said_by(browser, &folder, &page)?)?;
-    pictures::run(browser, &folder)
+    report(&said_by(browser, &folder, &format!("file://{}", page.display()))?)?;
+    pictures::run(browser, &folder)?;
+    laboratory::run(browser, &folder)
 }
 
 /// What a page says in the browser.
-fn said_by(browser: &str, folder: &Path, page: &Path) -> Result<Vec<String>> {
+fn said_by(browser: &str, folder: &Path, page: &str) -> Result<Vec<String>> {
     let mut command = Command::new(browser);
     command.args(FLAGS).arg(format!("--user-data-dir={}", folder.join("profile").display()));
-    command.arg(format!("file://{}", page.display())).stdout(Stdio::null()).stderr(Stdio::piped());
+    command.arg(page).stdout(Stdio::null()).stderr(Stdio::piped());
     let mut child = command.spawn().with_context(|| format!("can't start {browser}"))?;
     let found = listen(&mut child);
     child.kill()?;

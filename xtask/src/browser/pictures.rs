@@ -21,7 +21,7 @@ const MAE_BEYOND: f64 = 0.001;
 const INTERIOR_BELOW: f64 = 0.05;
 
 /// A technique's `mae` and `interior_pct`.
-type Scores = BTreeMap<String, (f64, f64)>;
+pub type Scores = BTreeMap<String, (f64, f64)>;
 
 /// Draws here and in the browser, and fails where the browser's pictures are worse.
 pub fn run(browser: &str, folder: &Path) -> Result<()> {
@@ -29,10 +29,16 @@ pub fn run(browser: &str, folder: &Path) -> Result<()> {
     here.args(["run", "--quiet"]).args(EXAMPLE).env("NODEVICE_SELECT", "1");
     let here = scores(shell::output(here)?.lines())?;
     let page = page(folder)?;
+    let page = format!("file://{}", page.display());
     let there = scores(said_by(browser, folder, &page)?.iter().map(String::as_str))?;
+    compare(&here, &there)
+}
+
+/// Fails where a picture of the browser's is worse.
+pub fn compare(here: &Scores, there: &Scores) -> Result<()> {
     let mut worse = 0;
     println!("{:<16} {:>9} {:>9} {:>12} {:>12}", "technique", "mae", "there", "interior, %", "there");
-    for (id, (mae, interior)) in &here {
+    for (id, (mae, interior)) in here {
         let &(mae_there, interior_there) = there.get(id).with_context(|| format!("the browser drew no {id}"))?;
         let is_worse = mae_there > mae + MAE_BEYOND || interior_there < interior - INTERIOR_BELOW;
         worse += usize::from(is_worse);
@@ -45,7 +51,7 @@ pub fn run(browser: &str, folder: &Path) -> Result<()> {
 }
 
 /// What the program's lines say.
-fn scores<'a>(lines: impl Iterator<Item = &'a str>) -> Result<Scores> {
+pub fn scores<'a>(lines: impl Iterator<Item = &'a str>) -> Result<Scores> {
     let mut scores = Scores::new();
     for line in lines.filter(|line| *line != "end") {
         match *line.split(' ').collect::<Vec<_>>() {
@@ -79,7 +85,7 @@ fn page(folder: &Path) -> Result<PathBuf> {
 
 /// The program that makes a module for browsers: the one that is there, or compiled once in the
 /// version that `Cargo.lock` has.
-fn binder(folder: &Path) -> Result<PathBuf> {
+pub fn binder(folder: &Path) -> Result<PathBuf> {
     let version = locked_version("wasm-bindgen")?;
     let said = Command::new("wasm-bindgen").arg("--version").output().ok();
     let is_it = |said: Output| String::from_utf8_lossy(&said.stdout).split_whitespace().nth(1) == Some(&*version);

@@ -16,7 +16,8 @@ use std::path::Path;
 use toml::de::DeTable;
 use umbrage_core::{Camera, Scene};
 
-/// Reads the text of a scene file. Paths in it are relative to `dir` among `files`; errors call it `file`.
+/// Reads the text of a scene file. Paths in it are relative to `dir` among `files`; errors call it
+/// `file`.
 pub(crate) fn read(files: Files<'_>, text: &str, dir: &Path, file: &Path) -> Result<Opened, Error> {
     let source = Source { file, text };
     let document = DeTable::parse(text).map_err(|e| {

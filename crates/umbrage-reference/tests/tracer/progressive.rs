@@ -101,7 +101,7 @@ fn the_length_of_slices_and_the_threads_change_no_bit() {
                 left > 0
             })
         });
-        assert!(batches <= length, "a slice went on though it was told to stop");
+        assert!(batches <= length, "a slice continued though it was told to stop");
     }
     assert_eq!(slices.samples(), whole.samples());
     assert!(slices.errors() == whole.errors());
