@@ -2,8 +2,9 @@
 //! size that nobody sees.
 
 use egui_kittest::Harness;
+use egui_kittest::wgpu::WgpuTestRenderer;
 use umbrage::Registry;
-use umbrage_viewer::{Lab, Options, Walk};
+use umbrage_viewer::{Lab, Options, Walk, setup};
 
 /// The laboratory on its walk.
 struct Walker {
@@ -20,12 +21,13 @@ impl eframe::App for Walker {
 
 fn main() {
     let registry = Registry::default();
-    let mut harness = Harness::builder().with_size([640.0, 480.0]).wgpu().build_eframe(|context| Walker {
+    let renderer = WgpuTestRenderer::from_setup(setup(None));
+    let builder = Harness::builder().with_size([640.0, 480.0]).renderer(renderer);
+    let mut harness = builder.build_eframe(|context| Walker {
         lab: Lab::new(context, &registry, &Options::default()).unwrap_or_else(|error| panic!("{error}")),
         walk: Walk::new(&registry),
     });
     while !harness.state().walk.has_ended() {
         harness.step();
-        harness.render().unwrap_or_else(|error| panic!("{error}"));
     }
 }
