@@ -25,6 +25,8 @@ const PICTURES: [&str; 3] = ["color", "visibility", "error"];
 /// A tour as its file has it.
 struct Tour {
     scene: String,
+    /// Of the scene's camera and lights, in the words of the scene format.
+    change: String,
     light: i64,
     steps: Vec<Step>,
 }
@@ -79,10 +81,11 @@ impl Tour {
         let table: toml::Table = text.parse()?;
         let steps = table.get("step").and_then(toml::Value::as_array).context("there is no [[step]]")?;
         let scene = table.get("scene").and_then(toml::Value::as_str).unwrap_or(SCENE);
+        let change = table.get("change").and_then(toml::Value::as_str).unwrap_or_default();
         let light = table.get("light").and_then(toml::Value::as_integer).unwrap_or(0);
         let steps = steps.iter().map(Step::read).collect::<Result<Vec<_>>>()?;
         ensure!(steps.len() == STEPS, "there are {} steps, and every tour has {STEPS}", steps.len());
-        Ok(Self { scene: scene.into(), light, steps })
+        Ok(Self { scene: scene.into(), change: change.into(), light, steps })
     }
 
     /// Fails where a step shows or sets what the technique does not have.
@@ -109,7 +112,7 @@ impl Tour {
         let pane = |technique: &str| json!({ "technique": technique, "picture": step.show });
         let mut panes = vec![pane(&technique)];
         panes.extend(step.beside.as_deref().map(pane));
-        permalink(&json!({ "scene": self.scene, "light": self.light, "panes": panes }))
+        permalink(&json!({ "scene": self.scene, "change": self.change, "light": self.light, "panes": panes }))
     }
 }
 
@@ -169,7 +172,8 @@ mod tests {
     fn a_link_holds_what_a_step_shows() {
         let step =
             Step { show: "map-0".into(), set: vec!["size=64".into()], beside: Some("pcf".into()), ..Step::default() };
-        let link = Tour { scene: "contact".into(), light: 1, steps: Vec::new() }.link("vsm", &step);
+        let link =
+            Tour { scene: "contact".into(), change: String::new(), light: 1, steps: Vec::new() }.link("vsm", &step);
         let json = URL_SAFE_NO_PAD.decode(link.strip_prefix("1.").unwrap()).unwrap();
         let state: Value = serde_json::from_slice(&json).unwrap();
         let pane = |technique| json!({ "technique": technique, "picture": "map-0" });

@@ -106,7 +106,7 @@ mod tests {
     #[test]
     fn a_page_has_its_steps_and_ways_to_break() {
         let step = || Step { title: "<b>".into(), text: "t.".into(), show: "color".into(), ..Step::default() };
-        let tour = Tour { scene: "contact".into(), light: 0, steps: vec![step(), step()] };
+        let tour = Tour { scene: "contact".into(), change: String::new(), light: 0, steps: vec![step(), step()] };
         let page =
             of(&json!({ "id": "x" }), "# x\n\nAbout.\n", &tour, &[Break { setting: "bias=0".into(), text: "Bad." }]);
         assert_eq!(page.matches("<li>").count(), 3);
