@@ -203,6 +203,7 @@ mod worker {
 mod worker {
     use super::{Job, Traced, Wanted};
     use std::sync::Arc;
+    use web_time::{Duration, Instant};
 
     /// Of each frame.
     const SLICE: Duration = Duration::from_millis(12);
