@@ -79,6 +79,11 @@ pub(crate) const PICTURES: [(&str, &str); 7] = [
     ("normal", "Normals of surfaces as colours"),
 ];
 
+/// Pictures that the observer looks at; the others are those of the frozen camera.
+pub(crate) fn is_overlooked(picture: &str) -> bool {
+    [COLOR, VISIBILITY, ERROR].contains(&picture)
+}
+
 impl PaneState {
     /// The shaded scene under a technique.
     pub fn new(technique: &str) -> Self {

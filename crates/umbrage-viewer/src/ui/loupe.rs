@@ -62,7 +62,7 @@ fn under_cursor(lab: &Lab) -> Option<(usize, (u32, u32))> {
 
 fn place(lab: &Lab, (number, pixel): (usize, (u32, u32))) -> Option<Place> {
     let (stage, pane) = (lab.stage.as_ref()?, lab.panes.get(number)?);
-    let is_overlooked = over::is_overlooked(&lab.state.panes.get(number)?.picture);
+    let is_overlooked = crate::state::is_overlooked(&lab.state.panes.get(number)?.picture);
     Some(Place {
         tracer: stage.tracer.clone()?,
         textures: stage.textures.clone(),

@@ -4,7 +4,7 @@ mod bar;
 mod keys;
 mod light;
 mod loupe;
-pub(crate) mod over;
+mod over;
 mod panes;
 mod settings;
 mod statistics;

@@ -5,7 +5,7 @@ use crate::loupe::texel_of;
 use crate::overlay::{Line, Shapes, What, geometry};
 use crate::see::Lines;
 use crate::show::fitted;
-use crate::state::{COLOR, ERROR, VISIBILITY};
+use crate::state::{PICTURES, is_overlooked};
 use eframe::egui::{self, Color32, Painter, Pos2, Rect, Stroke, Vec2};
 use std::sync::Arc;
 use umbrage_core::Camera;
@@ -14,11 +14,6 @@ use umbrage_core::light_view::LightView;
 
 /// Half the size of the mark, points.
 const MARK: f32 = 7.0;
-
-/// Pictures that the observer looks at; the others are those of the frozen camera.
-pub(crate) fn is_overlooked(picture: &str) -> bool {
-    [COLOR, VISIBILITY, ERROR].contains(&picture)
-}
 
 /// What each line looks like.
 fn color(what: What) -> Color32 {
@@ -183,7 +178,7 @@ fn on_pane(lab: &Lab, number: usize, picture: &str, point: DVec3, cell: Rect) ->
 /// The picture shows the scene from the camera.
 pub(super) fn is_of_screen(lab: &Lab, number: usize, picture: &str) -> bool {
     let is_one = |(name, _): &(&str, &str)| *name == picture;
-    number < lab.panes.len() && crate::state::PICTURES.iter().any(is_one)
+    number < lab.panes.len() && PICTURES.iter().any(is_one)
 }
 
 /// Marks what was clicked: a point of the scene, or what the light first meets through a texel.
