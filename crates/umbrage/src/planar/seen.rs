@@ -16,7 +16,8 @@ pub(crate) struct SeenPlane {
     /// Around what is seen of its receivers, along `right` and `up`, metres.
     pub low: DVec2,
     pub high: DVec2,
-    /// How far it reaches where some of it is behind the eye, in heights of the eye over it; else 0.
+    /// How far it reaches where some of it is behind the eye, in heights of the eye over it; else
+    /// 0.
     pub reach: f64,
     /// How many pixels its receivers would cover, were nothing before them.
     pub pixels: f64,
