@@ -276,19 +276,19 @@ fn a_mesh_whose_indices_just_fit_a_binding_casts_the_same_shadows() {
     }
 }
 
-/// A ball of 10,000 triangles, with bumps, so that there are silhouettes all over it, above a floor.
+/// A sphere of 10,000 triangles, with bumps, so that there are silhouettes all over it, above a floor.
 fn bumps() -> Scene {
     let mut scene = scene("contact", 1.0);
-    let mut ball = primitive::sphere(100, 51);
-    for p in &mut ball.positions {
+    let mut sphere = primitive::sphere(100, 51);
+    for p in &mut sphere.positions {
         *p *= 1.0 + 0.1 * (9.0 * p.x).sin() * (8.0 * p.y).sin() * (7.0 * p.z).cos();
     }
-    assert_eq!(ball.triangle_count(), 10_000);
+    assert_eq!(sphere.triangle_count(), 10_000);
     scene.instances.clear();
     scene.meshes.clear();
-    let (floor, ball) = (scene.add_mesh(primitive::plane()), scene.add_mesh(ball));
+    let (floor, sphere) = (scene.add_mesh(primitive::plane()), scene.add_mesh(sphere));
     scene.place(floor, 0, DAffine3::from_scale(DVec3::splat(20.0)));
-    scene.place(ball, 0, DAffine3::from_translation(DVec3::new(0.0, 1.2, 0.0)));
+    scene.place(sphere, 0, DAffine3::from_translation(DVec3::new(0.0, 1.2, 0.0)));
     scene.camera.eye = DVec3::new(0.4, 3.0, 5.0);
     scene.camera.target = DVec3::new(0.0, 0.5, 0.0);
     let (from, to) = (DVec3::new(0.5, 5.0, 2.0), DVec3::new(1.5, 5.0, 2.0));
