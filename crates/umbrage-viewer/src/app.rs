@@ -403,7 +403,7 @@ impl Lab {
         }
     }
 
-    /// Asks for the next frame where something goes on by itself.
+    /// Asks for the next frame where something moves by itself.
     fn last_to_do(&self, context: &egui::Context) {
         if self.face.is_moving() || self.face.draws_always || self.panes.iter().any(Pane::is_waiting) {
             context.request_repaint();

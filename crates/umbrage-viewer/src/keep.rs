@@ -1,4 +1,4 @@
-//! Snapshots and bundles for bug reports, written while the window goes on.
+//! Snapshots and bundles for bug reports, written while the window stays in use.
 
 use crate::link;
 use crate::state::{COMPARED, PaneState, State};

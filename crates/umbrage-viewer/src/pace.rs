@@ -67,7 +67,7 @@ impl Pace {
 mod tests {
     use super::*;
 
-    /// Where the divisor comes to rest when a whole picture takes `ms`.
+    /// The divisor in the end when a whole picture takes `ms`.
     fn rest(ms: f64) -> u32 {
         let mut pace = Pace::default();
         for _ in 0..100 {

@@ -36,7 +36,7 @@ pub(crate) enum Opened {
     Tracer(Arc<Tracer>),
 }
 
-/// A scene that is being opened, while the window goes on.
+/// A scene that is being opened, while the window stays in use.
 pub(crate) struct Opening {
     /// As users name it.
     pub name: String,

@@ -1,4 +1,4 @@
-//! What goes wrong is said in the window, which goes on.
+//! What goes wrong is said in the window, which stays in use.
 
 use crate::common::{open, until};
 use eframe::egui::{DroppedFile, Key, Modifiers, Vec2};

@@ -16,7 +16,7 @@ pub fn lab(size: [f32; 2], options: Options) -> Harness<'static, Lab> {
     builder.build_eframe(move |context| Lab::new(context, &registry, &options).unwrap_or_else(|e| panic!("{e}")))
 }
 
-/// Goes on frame by frame until `done`.
+/// Draws frame by frame until `done`.
 pub fn until(lab: &mut Harness<'static, Lab>, what: &str, done: impl Fn(&Lab) -> bool) {
     let start = Instant::now();
     while !done(lab.state()) {

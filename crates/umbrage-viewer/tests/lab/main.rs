@@ -5,4 +5,5 @@ mod common;
 mod first;
 mod keep;
 mod see;
+mod soak;
 mod walk;
