@@ -83,6 +83,13 @@ fn an_observer_sees_the_frozen_camera_and_what_was_found_for_it() {
     assert!(observer.eye.distance(camera.eye) > 1.0, "{observer:?}");
     assert_eq!(lab.state().error(0), None);
     keep(&mut lab, "observer");
+    // Each kind of line can be had.
+    for name in ["silhouettes", "shadow volumes"] {
+        let before = lab.state().line_count(0);
+        lab.get_by_label(name).click();
+        until(&mut lab, name, |lab| lab.line_count(0) > before);
+    }
+    keep(&mut lab, "observer-volumes");
     press(&mut lab, Key::V);
     assert_eq!(lab.state().error(0), None);
     keep(&mut lab, "observer-visibility");
