@@ -5,7 +5,7 @@ use anyhow::Result;
 use clap::Args;
 use std::path::PathBuf;
 use umbrage::{Gpu, Registry};
-use umbrage_report::{Choice, Folder, Source};
+use umbrage_report::{CameraPath, Choice, Folder, Moving, Source};
 
 /// Which adapter to use.
 #[derive(Args)]
@@ -38,6 +38,27 @@ impl Changed {
     /// Opens a scene with what is changed in it.
     pub fn open(&self, asked: &str) -> Result<Source> {
         Ok(Source::open(asked)?.changed(self.change.as_deref(), self.time)?)
+    }
+}
+
+/// A frame of what moves in a scene.
+#[derive(Args)]
+pub struct Moved {
+    /// What moves, as in `umbrage bench`: lights, casters, camera, all
+    #[arg(long, value_name = "WHAT", default_value = "none", hide_default_value = true)]
+    moving: Moving,
+    /// The camera's way, as in `umbrage bench`: walk, strafe, turn, fly
+    #[arg(long, value_name = "NAME")]
+    path: Option<CameraPath>,
+    /// The frame of what moves, and of the camera's way, that is shown
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    frame: u32,
+}
+
+impl Moved {
+    /// The scene in that frame.
+    pub fn of(&self, source: Source, size: Size) -> Source {
+        source.moved(self.moving, self.path, self.frame, size.height)
     }
 }
 

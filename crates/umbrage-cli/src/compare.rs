@@ -24,6 +24,8 @@ DIR gets report.json, index.html (open it in a browser) and pictures/. --referen
 pub struct Compare {
     #[command(flatten)]
     what: args::What,
+    #[command(flatten)]
+    moved: args::Moved,
     /// Rays for each pixel of the reference
     #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     samples: u32,
@@ -53,7 +55,8 @@ impl Compare {
     /// Compares, prints and writes.
     pub fn run(self, context: &Context<'_>) -> Result<()> {
         let choices = self.what.choices(context.registry)?;
-        let scenes = self.what.scenes()?;
+        let scenes = self.what.scenes()?.into_iter();
+        let scenes = scenes.map(|(source, lights)| (self.moved.of(source, self.size), lights)).collect();
         let gpu = self.adapter.gpu()?;
         let folder = Folder::check(&self.output)?;
         let plan = Plan {

@@ -44,6 +44,8 @@ pub struct Render {
     size: Size,
     #[command(flatten)]
     changed: args::Changed,
+    #[command(flatten)]
+    moved: args::Moved,
     /// Rays for each pixel of `ray-traced`; 1 is the perfect hard shadow [default: 1024]
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
@@ -76,7 +78,7 @@ impl Render {
                 "--overlay is a way of shading: it goes with `--aov color` and a technique that knows it, such as `volume`"
             );
         }
-        let source = self.changed.open(&self.scene)?;
+        let source = self.moved.of(self.changed.open(&self.scene)?, self.size);
         let lights = source.lights(self.light)?;
         self.check_aov(&aov)?;
         let of_one_light = matches!(aov, Aov::Visibility | Aov::Scored | Aov::Inside(_));

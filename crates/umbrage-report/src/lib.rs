@@ -8,6 +8,8 @@
 mod choice;
 mod error;
 mod given;
+mod maps;
+mod motion;
 mod path;
 mod progress;
 mod source;
@@ -15,6 +17,8 @@ mod source;
 pub use choice::{Choice, LIGHT_SAMPLES, RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced};
 pub use error::Error;
 pub use given::Given;
+pub use maps::Maps;
+pub use motion::{Motion, Moving, PERIOD, place};
 pub use path::CameraPath;
 pub use progress::{Progress, Silent};
 pub use source::Source;
@@ -38,7 +42,6 @@ not_in_browsers! {
     mod html;
     mod made;
     mod measure;
-    mod motion;
     mod output;
     mod pictures;
     pub mod record;
@@ -56,7 +59,6 @@ not_in_browsers! {
     pub use compare::{Compare, Outcome};
     pub use html::page;
     pub use made::{Adapter, Machine, Made};
-    pub use motion::Moving;
     pub use output::{Folder, check_file};
     pub use pictures::Pictures;
     pub use record::Report;

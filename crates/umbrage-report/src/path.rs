@@ -2,14 +2,14 @@
 //! on the way are seen there.
 
 use crate::error::Error;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 use umbrage_core::Camera;
 use umbrage_core::glam::DQuat;
 
 /// How the camera moves. What is as far away as the middle of the picture moves by about a pixel a
 /// frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum CameraPath {
     /// Forward.
@@ -52,6 +52,11 @@ impl CameraPath {
         }
     }
 
+    /// Frames until the camera is back, for pictures `height` pixels high.
+    pub fn period(height: u32) -> u32 {
+        2 * (height / 16).clamp(2, MOST_STEPS)
+    }
+
     /// Where `start` is in frame `frame`, for pictures `height` pixels high.
     pub fn camera(self, start: &Camera, frame: u32, height: u32) -> Camera {
         let steps = steps(frame, height);
@@ -72,9 +77,9 @@ impl CameraPath {
 /// that no grid keeps pace.
 fn steps(frame: u32, height: u32) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    let turn = (height / 16).clamp(2, MOST_STEPS);
-    let phase = frame % (2 * turn);
-    let along = if phase <= turn { phase } else { 2 * turn - phase };
+    let period = CameraPath::period(height);
+    let phase = frame % period;
+    let along = phase.min(period - phase);
     (0..along).map(|step| 0.6 + 0.8 * (f64::from(step) * GOLDEN).fract()).sum()
 }
 

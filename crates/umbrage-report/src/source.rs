@@ -1,6 +1,8 @@
 //! Scenes as users name them: a built-in one, with its detail, or a file.
 
 use crate::error::Error;
+use crate::motion::{Motion, Moving};
+use crate::path::CameraPath;
 use std::path::Path;
 use umbrage_core::{Light, Scene, scenes};
 
@@ -58,6 +60,17 @@ impl Source {
         }
         self.scene.advance(time_s);
         Ok(self)
+    }
+
+    /// The same in frame `frame` of a motion and of a way of the camera, for pictures `height`
+    /// pixels high.
+    #[must_use]
+    pub fn moved(mut self, moving: Moving, path: Option<CameraPath>, frame: u32, height: u32) -> Self {
+        Motion::new(moving, &self.scene).apply_to(&mut self.scene, frame);
+        if let Some(path) = path {
+            self.scene.camera = path.camera(&self.scene.camera, frame, height);
+        }
+        self
     }
 
     /// The light of this number.

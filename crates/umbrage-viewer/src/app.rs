@@ -11,6 +11,7 @@ use crate::state::{PaneState, State};
 use crate::truth::{Truth, Wanted};
 use crate::ui::Face;
 use crate::undo::Undo;
+use crate::yardstick::{Of, Ratios, Yardstick};
 use eframe::egui;
 use eframe::egui_wgpu::RenderState;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -55,6 +56,10 @@ pub struct Lab {
     pub(crate) panes: Vec<Pane>,
     pub(crate) truth: Truth,
     pub(crate) pace: Pace,
+    /// What is measured when asked for.
+    pub(crate) yardstick: Option<Yardstick>,
+    /// What came of it.
+    pub(crate) ratios: Option<(Of, Ratios)>,
     /// What is not part of the state: what is chosen, what is open.
     pub(crate) face: Face,
     last_frame: Instant,
@@ -100,6 +105,8 @@ impl Lab {
             panes: Vec::new(),
             truth: Truth::new(),
             pace: Pace::default(),
+            yardstick: None,
+            ratios: None,
             face: Face::new(&context.egui_ctx),
             last_frame: Instant::now(),
             changed: (None, Instant::now()),
@@ -168,10 +175,11 @@ impl Lab {
             self.changed = (Some(self.state.clone()), Instant::now());
         }
         self.draw();
+        self.measure();
         self.want_truth();
         #[cfg(not(target_family = "wasm"))]
         self.keep();
-        if !ui.ctx().input(|i| i.pointer.any_down()) && self.stage.is_some() {
+        if !ui.ctx().input(|i| i.pointer.any_down()) && self.stage.is_some() && !self.face.is_moving() {
             self.undo.keep(&self.state);
         }
         self.last_to_do(ui.ctx());
@@ -271,7 +279,7 @@ impl Lab {
                 Some(Err(())) => self.opening = None,
                 Some(Ok(Some(Opened::Tracer(tracer)))) => {
                     if let Some(stage) = &mut self.stage {
-                        stage.tracer = Some(tracer);
+                        stage.take_tracer(tracer);
                     }
                 }
                 Some(Ok(Some(Opened::Scene(source)))) => {
@@ -302,6 +310,7 @@ impl Lab {
             camera: scene.camera.clone(),
             lights: scene.lights.clone(),
             time_s: 0.0,
+            frame: 0,
             light: Some(0),
             observer: None,
             ..self.state.clone()
@@ -326,12 +335,16 @@ impl Lab {
             self.face.say(error.to_string());
             return;
         }
+        if let Err(error) = stage.move_to(&self.state) {
+            self.face.say(error);
+        }
+        let seen = stage.seen(&self.state);
         let shared = Shared {
             gpu: &self.gpu,
             registry: &self.registry,
             show: &self.show,
             observe: &self.observe,
-            state: &self.state,
+            state: &seen,
             truth: &truth,
             truth_version: self.truth.version(),
             stage_version: self.stage_version,
@@ -364,20 +377,25 @@ impl Lab {
 
     /// Has the truth traced that panes show or are compared with.
     fn want_truth(&mut self) {
-        let Some(stage) = &self.stage else { return };
-        let Some(tracer) = stage.tracer.clone().filter(|_| self.face.traces) else {
+        let waits = self.truth_waits();
+        let Some(stage) = &mut self.stage else { return };
+        if self.face.traces && self.opening.is_none() && !waits {
+            stage.trace();
+        }
+        let Some(tracer) = stage.tracer.clone().filter(|_| self.face.traces && !waits) else {
             self.truth.want(None);
             return;
         };
-        let all = self.state.panes.iter().any(|pane| pane.technique == RAY_TRACED);
-        let mut numbers = self.state.shining();
+        let state = stage.seen(&self.state);
+        let all = state.panes.iter().any(|pane| pane.technique == RAY_TRACED);
+        let mut numbers = state.shining();
         if !all {
             // Errors are those of one light.
             numbers.truncate(1);
         }
-        let lights = numbers.into_iter().filter_map(|n| Some((n, self.state.lights.get(n)?.clone()))).collect();
+        let lights = numbers.into_iter().filter_map(|n| Some((n, state.lights.get(n)?.clone()))).collect();
         let size = stage.renderer.size();
-        let camera = self.state.eye().clone();
+        let camera = state.eye().clone();
         self.truth.want(Some(Wanted { tracer, camera, size, lights, textures: stage.textures.clone() }));
     }
 
@@ -405,14 +423,22 @@ impl Lab {
 
     /// Asks for the next frame where something moves by itself.
     fn last_to_do(&self, context: &egui::Context) {
-        if self.face.is_moving() || self.face.draws_always || self.panes.iter().any(Pane::is_waiting) {
+        if self.face.is_moving()
+            || self.face.draws_always
+            || self.yardstick.is_some()
+            || self.panes.iter().any(Pane::is_waiting)
+        {
             context.request_repaint();
             return;
         }
         if !self.is_at_rest() {
             context.request_repaint_after(REST.saturating_sub(self.changed.1.elapsed()));
         }
-        if self.opening.is_some() || self.truth.is_under_way() || self.is_keeping() {
+        if self.opening.is_some()
+            || self.truth.is_under_way()
+            || self.is_keeping()
+            || self.stage.as_ref().is_some_and(Stage::is_tracing)
+        {
             context.request_repaint_after(Duration::from_millis(60));
         }
     }

@@ -77,8 +77,13 @@ pub(crate) fn drag_light(light: &mut Light, camera: &Camera, drag: DVec2) {
 }
 
 /// Moves a light, metres; a parallel light stays.
-pub(crate) fn move_light(light: &mut Light, by: DVec3) {
-    match &mut light.shape {
+fn move_light(light: &mut Light, by: DVec3) {
+    move_shape(&mut light.shape, by);
+}
+
+/// The same for the shape of a light.
+pub(crate) fn move_shape(shape: &mut LightShape, by: DVec3) {
+    match shape {
         LightShape::Directional { .. } => {}
         LightShape::Line { from, to } => {
             *from += by;

@@ -4,6 +4,7 @@ use crate::link;
 use crate::state::{COMPARED, PaneState, State};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use umbrage::{Gpu, Registry};
 use umbrage_report::{Aov, Choice, Method, Picture, RAY_TRACED, Shot, Silent, Source};
@@ -22,7 +23,7 @@ pub(crate) enum Kind {
 pub(crate) struct What {
     pub gpu: Gpu,
     pub registry: Registry,
-    pub source: Source,
+    pub source: Arc<Source>,
     pub state: State,
     pub size: (u32, u32),
     /// Of the truth, for each pixel.
@@ -73,8 +74,10 @@ pub(crate) fn picture(what: &What, pane: &PaneState) -> Result<Picture, String> 
     } else {
         Method::Technique(Choice::parse(&what.registry, &pane.technique, &[]).map_err(text)?)
     };
+    let State { time_s, moving, path, frame, .. } = what.state;
+    let source = Source::clone(&what.source).changed(Some(&change), time_s).map_err(text)?;
     let shot = Shot {
-        source: what.source.clone().changed(Some(&change), what.state.time_s).map_err(text)?,
+        source: source.moved(moving, path, frame, what.size.1),
         lights: what.state.shining(),
         method,
         size: what.size,

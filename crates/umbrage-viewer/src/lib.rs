@@ -8,9 +8,13 @@
 mod app;
 mod background;
 mod camera;
+mod doing;
+mod gizmo;
 #[cfg(not(target_family = "wasm"))]
 mod keep;
+mod kinds;
 mod later;
+mod lessons;
 mod link;
 mod loupe;
 #[cfg(not(target_family = "wasm"))]
@@ -19,17 +23,21 @@ mod observe;
 mod overlay;
 mod pace;
 mod pane;
+mod record;
+mod screen;
 mod see;
 mod show;
 mod slow;
 mod stage;
 mod state;
+mod text;
 mod truth;
 mod ui;
 mod undo;
 mod walk;
 #[cfg(target_family = "wasm")]
 pub mod web;
+mod yardstick;
 
 pub use app::{Lab, Options};
 #[cfg(not(target_family = "wasm"))]

@@ -5,7 +5,7 @@ use base64::Engine as _;
 use base64::prelude::BASE64_URL_SAFE_NO_PAD;
 use serde::{Deserialize, Serialize};
 use umbrage_core::{Camera, Scene};
-use umbrage_report::{LIGHT_SAMPLES, RAY_TRACED};
+use umbrage_report::{CameraPath, LIGHT_SAMPLES, Moving, RAY_TRACED};
 
 /// The version that this program writes.
 const VERSION: u32 = 1;
@@ -19,6 +19,12 @@ struct Written {
     change: String,
     #[serde(skip_serializing_if = "is_default")]
     time: f64,
+    #[serde(skip_serializing_if = "is_default")]
+    moving: Moving,
+    #[serde(skip_serializing_if = "is_default")]
+    path: Option<CameraPath>,
+    #[serde(skip_serializing_if = "is_default")]
+    frame: u32,
     light: Option<usize>,
     panes: Vec<PaneState>,
     #[serde(skip_serializing_if = "is_default")]
@@ -52,6 +58,9 @@ pub fn write(state: &State, scene: &Scene) -> String {
         scene: state.scene.clone(),
         change: change(state, scene),
         time: state.time_s,
+        moving: state.moving,
+        path: state.path,
+        frame: state.frame,
         light: state.light,
         panes: state.panes.clone(),
         layout: state.layout,
@@ -103,6 +112,9 @@ pub fn read(text: &str) -> Result<Linked, String> {
     let state = State {
         scene: written.scene,
         time_s: if written.time.is_finite() { written.time } else { 0.0 },
+        moving: written.moving,
+        path: written.path,
+        frame: written.frame,
         light: written.light,
         panes: written.panes,
         layout: written.layout,
@@ -168,6 +180,13 @@ pub fn command(state: &State, pane: &PaneState, scene: &Scene, size: (u32, u32),
     }
     if state.time_s != 0.0 {
         words.push(format!("--time {:?}", state.time_s));
+    }
+    if state.moving != Moving::None {
+        words.push(format!("--moving {}", state.moving.name()));
+    }
+    words.extend(state.path.map(|path| format!("--path {}", path.name())));
+    if state.frame != 0 {
+        words.push(format!("--frame {}", state.frame));
     }
     words.push(match is_compared {
         true => "-o out".into(),
@@ -245,6 +264,7 @@ mod tests {
         state.observer = Some(Camera::default());
         state.panes = vec![PaneState::new("ray-traced"), PaneState::new("pcf:kernel=7")];
         state = State { light: None, layout: Layout::Blink, range: Some([0.0, 2.0]), time_s: 0.5, ..state };
+        state = State { moving: Moving::Casters, path: Some(CameraPath::Fly), frame: 17, ..state };
         assert_eq!(again(&state).as_ref(), Ok(&state));
     }
 
@@ -269,12 +289,14 @@ mod tests {
         state.scene = "a room.glb".into();
         state.camera.eye = DVec3::new(0.5, 1.0, 5.0);
         state.time_s = 0.25;
+        (state.moving, state.path, state.frame) = (Moving::Lights, Some(CameraPath::Walk), 12);
         let pane = PaneState { technique: "shadow-map:size=512:light-samples=4".into(), picture: "visibility".into() };
         assert_eq!(
             command(&state, &pane, &scene(), (64, 48), None),
             "umbrage render 'a room.glb' --technique shadow-map --set size=512 --light-samples 4 --light 0 --size 64x48 \
              --change 'camera = { eye = [0.5, 1.0, 5.0], target = [0.0, 0.0, 0.0], up = [0.0, 1.0, 0.0], \
-             fov_y = 45.0, near = 0.05 }' --time 0.25 --aov visibility -o shadow-map-visibility.png"
+             fov_y = 45.0, near = 0.05 }' --time 0.25 --moving lights --path walk --frame 12 --aov visibility \
+             -o shadow-map-visibility.png"
         );
         let error = PaneState { picture: "error".into(), ..PaneState::new("pcf:kernel=7") };
         let expected =

@@ -5,7 +5,7 @@ use crate::loupe::Maps;
 use crate::observe::{self, Frozen, Observe};
 use crate::show::{FORMAT, Show, Way, truth_texture, upload};
 use crate::slow::{self, Slow};
-use crate::stage::Stage;
+use crate::stage::{Moment, Stage};
 use crate::state::{COLOR, ERROR, PaneState, State, VISIBILITY, is_overlooked};
 use crate::truth::Traced;
 use eframe::egui;
@@ -28,7 +28,9 @@ struct Drawn {
     /// The camera that stands still while an observer looks on.
     frozen: Option<Camera>,
     lights: Vec<(usize, Light)>,
-    time_s: f64,
+    moment: Moment,
+    /// Rays can be traced, where the picture needs them.
+    is_traceable: bool,
     size: (u32, u32),
     gain: f32,
     range: Option<[f32; 2]>,
@@ -172,7 +174,8 @@ impl Pane {
             // The truth is traced for who looks.
             frozen: (state.observer.is_some() && wanted.technique != RAY_TRACED).then(|| state.camera.clone()),
             lights,
-            time_s: state.time_s,
+            moment: stage.moment(),
+            is_traceable: slow::is_slow(&wanted.picture) && stage.tracer.is_some(),
             size: self.size(),
             gain: state.gain,
             range: state.range,

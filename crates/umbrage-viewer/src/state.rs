@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use umbrage_core::{Camera, Light};
+use umbrage_report::{CameraPath, Moving};
 
 /// A state of the laboratory.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +15,12 @@ pub struct State {
     pub lights: Vec<Light>,
     /// How far animations have moved on, seconds.
     pub time_s: f64,
+    /// What moves, as in the bench.
+    pub moving: Moving,
+    /// The camera's way, as in the bench.
+    pub path: Option<CameraPath>,
+    /// The frame of both that is shown.
+    pub frame: u32,
     /// Only this light shines; `None`: all do.
     pub light: Option<usize>,
     /// What is seen, one to four of them.
@@ -104,6 +111,9 @@ impl Default for State {
             camera: Camera::default(),
             lights: Vec::new(),
             time_s: 0.0,
+            moving: Moving::None,
+            path: None,
+            frame: 0,
             light: Some(0),
             panes: vec![PaneState::new("pcf")],
             layout: Layout::default(),

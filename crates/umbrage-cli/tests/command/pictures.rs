@@ -37,6 +37,21 @@ fn render_writes_every_kind_of_picture() {
 }
 
 #[test]
+fn a_frame_of_what_moves_is_rendered_and_comes_again_after_a_round() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let picture = |arguments: &[&str]| {
+        let fixed = ["render", "contact", "--light", "0", "--size", "64x48", "-o", "a.png"];
+        output(folder.path(), &[&fixed[..], arguments].concat());
+        fs::read(folder.path().join("a.png")).expect("a picture")
+    };
+    let start = picture(&["--moving", "casters"]);
+    assert!(start != picture(&["--moving", "casters", "--frame", "12"]), "nothing moves");
+    assert!(start == picture(&["--moving", "casters", "--frame", "60"]), "it ends elsewhere");
+    assert!(start == picture(&["--frame", "12"]), "it moves by itself");
+    assert!(start != picture(&["--path", "walk", "--frame", "3"]), "the camera stays");
+}
+
+#[test]
 fn compare_writes_report_page_and_pictures() {
     let folder = tempfile::tempdir().expect("a folder");
     let arguments = ["compare", "contact", "--techniques", "all", "--samples", "8", "--size", "96x72", "--frames", "2"];

@@ -2,7 +2,7 @@
 
 use crate::{
     bench::{
-        baseline::{Baseline, Maps},
+        baseline::Baseline,
         record::{BenchLight, BenchReport, BenchScene},
         runner::Runner,
     },
@@ -11,6 +11,7 @@ use crate::{
     error::Error,
     flicker::Follower,
     made::Made,
+    maps::Maps,
     measure::Frames,
     motion::{Motion, Moving},
     path::CameraPath,
@@ -118,7 +119,7 @@ impl Bench {
         &self,
         gpu: &Gpu,
         source: &Source,
-        motion: &Motion<'_>,
+        motion: &Motion,
         tracer: Option<&Tracer>,
         lights: &[usize],
         progress: &dyn Progress,
@@ -138,10 +139,10 @@ impl Bench {
         for round in 0..WARM_UP + self.frames {
             let counted = round.saturating_sub(WARM_UP);
             let on_path = self.path.map(|path| path.camera(&source.scene.camera, counted, self.size.1));
-            let camera = on_path.unwrap_or_else(|| motion.camera(round));
+            let camera = on_path.unwrap_or_else(|| motion.camera(&source.scene.camera, round));
             for runner in &mut runners {
                 if let Ok(renderer) = &mut runner.renderer {
-                    motion.apply(renderer, lights, round)?;
+                    motion.apply(renderer, &source.scene, lights, round)?;
                 }
                 runner.churn()?;
                 runner.frame(gpu, &camera, round >= WARM_UP);

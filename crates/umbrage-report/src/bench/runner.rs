@@ -2,12 +2,13 @@
 
 use crate::{
     bench::{
-        baseline::{Baseline, Maps},
+        baseline::Baseline,
         record::{BenchCost, BenchResult, BenchTraffic},
     },
     choice::Choice,
     churn::Churn,
     error::Error,
+    maps::Maps,
     measure::Frames,
     status::Status,
 };

@@ -2,10 +2,11 @@
 //! that a drift of the machine hits all of them alike.
 
 use crate::{
-    bench::{baseline::Maps, record::BenchCost},
+    bench::record::BenchCost,
     cell::TIME_LIMIT,
     choice::Choice,
     error::Error,
+    maps::Maps,
     measure::Frames,
     spread::Spread,
     stage::{Actor, Stage},

@@ -198,7 +198,7 @@ fn back_to_scene(lab: &mut Lab) {
         lab.state.camera = scene.camera.clone();
         lab.state.lights.clone_from(&scene.lights);
         lab.state.observer = None;
-        lab.state.time_s = 0.0;
+        (lab.state.time_s, lab.state.frame) = (0.0, 0);
     }
 }
 

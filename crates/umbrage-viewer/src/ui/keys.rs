@@ -1,7 +1,7 @@
 //! What keys do. The letters are those of the thesis' program.
 
-use super::bar;
 use super::panes::eye;
+use super::{bar, motion};
 use crate::app::Lab;
 use crate::camera;
 use eframe::egui::{self, Key, Modifiers};
@@ -12,7 +12,7 @@ use umbrage_report::RAY_TRACED;
 const SPEED: f64 = 0.6;
 
 /// What hands can do, as the help shows it.
-const HELP: [(&str, &str); 23] = [
+const HELP: &[(&str, &str)] = &[
     ("left drag", "turns the scene"),
     ("left click", "marks a point in all panes: in the scene, and its texel in maps"),
     ("shift + left drag", "looks around"),
@@ -29,6 +29,10 @@ const HELP: [(&str, &str); 23] = [
     ("V", "visibility only, and back"),
     ("E", "error against the truth, and back"),
     ("L", "next light; after the last all of them"),
+    ("G", "the light's handles: move, aim, size; with shift the rectangle that it can light"),
+    ("H", "reads about the technique: how it works, its limits, a tour"),
+    ("K", "lets what can move play, and stops it"),
+    (", and .", "one frame of it back and forward"),
     ("O", "freezes the camera and looks on from outside"),
     ("P", "loupe: all that is known of the pixel, and the light as it sees it"),
     ("I", "text on the pictures"),
@@ -72,6 +76,12 @@ const COMMANDS: &[(Modifiers, Key, Act)] = &[
     (Modifiers::NONE, Key::V, |lab, _| toggle_picture(lab, crate::state::VISIBILITY)),
     (Modifiers::NONE, Key::E, |lab, _| toggle_picture(lab, crate::state::ERROR)),
     (Modifiers::NONE, Key::L, |lab, _| next_light(lab)),
+    (Modifiers::SHIFT, Key::G, |lab, _| lab.face.shows_lit_part = !lab.face.shows_lit_part),
+    (Modifiers::NONE, Key::G, |lab, _| lab.face.shows_gizmo = !lab.face.shows_gizmo),
+    (Modifiers::NONE, Key::H, |lab, _| read(lab)),
+    (Modifiers::NONE, Key::K, |lab, _| motion::play(lab)),
+    (Modifiers::NONE, Key::Comma, |lab, _| motion::step(lab, false)),
+    (Modifiers::NONE, Key::Period, |lab, _| motion::step(lab, true)),
     (Modifiers::NONE, Key::O, |lab, _| {
         lab.state.observer = if lab.state.observer.is_some() { None } else { Some(lab.state.camera.clone()) };
     }),
@@ -118,6 +128,12 @@ fn toggle_picture(lab: &mut Lab, picture: &str) {
     pane.picture = if pane.picture == picture { crate::state::COLOR.into() } else { picture.into() };
 }
 
+/// Opens and closes the page of the active technique.
+fn read(lab: &mut Lab) {
+    let id = lab.state.panes[lab.face.active].id();
+    lab.face.reads = (lab.face.reads.as_deref() != Some(id)).then(|| id.into());
+}
+
 fn copy_camera(lab: &mut Lab, context: &egui::Context) {
     let text = umbrage_io::changes(Some(lab.state.eye()), &[]);
     context.copy_text(text.clone());
@@ -127,7 +143,8 @@ fn copy_camera(lab: &mut Lab, context: &egui::Context) {
 
 fn close(lab: &mut Lab, context: &egui::Context) {
     let has_mark = |lab: &mut Lab| lab.face.see.mark.take().is_some();
-    if lab.face.search.take().is_some() || std::mem::take(&mut lab.face.shows_help) || has_mark(lab) {
+    let has_help = |lab: &mut Lab| std::mem::take(&mut lab.face.shows_help);
+    if lab.face.search.take().is_some() || lab.face.reads.take().is_some() || has_help(lab) || has_mark(lab) {
         return;
     }
     if cfg!(not(target_family = "wasm")) && !egui::Popup::is_any_open(context) {
@@ -168,7 +185,7 @@ pub(super) fn help(lab: &mut Lab, context: &egui::Context) {
     let mut is_open = lab.face.shows_help;
     egui::Window::new("Keys and mouse").open(&mut is_open).show(context, |ui| {
         egui::Grid::new("keys").num_columns(2).striped(true).show(ui, |ui| {
-            for (keys, what) in HELP {
+            for &(keys, what) in HELP {
                 ui.strong(keys);
                 ui.label(what);
                 ui.end_row();

@@ -63,13 +63,14 @@ fn under_cursor(lab: &Lab) -> Option<(usize, (u32, u32))> {
 fn place(lab: &Lab, (number, pixel): (usize, (u32, u32))) -> Option<Place> {
     let (stage, pane) = (lab.stage.as_ref()?, lab.panes.get(number)?);
     let is_overlooked = crate::state::is_overlooked(&lab.state.panes.get(number)?.picture);
+    let seen = stage.seen(&lab.state);
     Some(Place {
         tracer: stage.tracer.clone()?,
         textures: stage.textures.clone(),
-        camera: if is_overlooked { lab.state.eye().clone() } else { lab.state.camera.clone() },
+        camera: if is_overlooked { seen.eye().clone() } else { seen.camera.clone() },
         size: pane.size(),
         pixel,
-        light: lab.state.main_light()?.clone(),
+        light: seen.main_light()?.clone(),
         maps: pane.maps.clone(),
     })
 }

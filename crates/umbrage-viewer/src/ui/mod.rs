@@ -1,11 +1,15 @@
 //! What is on the screen around the pictures, and what hands do with it.
 
 mod bar;
+mod gizmo;
 mod keys;
 mod light;
 mod loupe;
+mod motion;
 mod over;
 mod panes;
+mod presets;
+mod read;
 mod settings;
 mod statistics;
 mod status;
@@ -32,8 +36,20 @@ pub(crate) struct Face {
     pub traces: bool,
     /// The scene turns.
     pub turns: bool,
+    /// What can move plays.
+    pub plays: bool,
+    /// How fast, 1 being natural.
+    pub speed: f64,
+    /// The part of the next frame that has passed.
+    pub part_of_frame: f64,
     pub shows_text: bool,
     pub shows_help: bool,
+    /// The technique whose page is open.
+    pub reads: Option<String>,
+    /// The light's handles are on the pictures.
+    pub shows_gizmo: bool,
+    /// So is the rectangle that it can light.
+    pub shows_lit_part: bool,
     pub search: Option<String>,
     /// Pixels of the screen that each picture has.
     cell: Option<[f32; 2]>,
@@ -57,8 +73,14 @@ impl Face {
             draws_always: false,
             traces: true,
             turns: false,
+            plays: false,
+            speed: 1.0,
+            part_of_frame: 0.0,
             shows_text: true,
             shows_help: false,
+            reads: None,
+            shows_gizmo: false,
+            shows_lit_part: false,
             search: None,
             cell: None,
             cursor: None,
@@ -91,7 +113,7 @@ impl Face {
 
     /// Something moves by itself.
     pub fn is_moving(&self) -> bool {
-        self.turns
+        self.turns || self.plays
     }
 
     /// Pixels of each picture with this many pixels of the screen for one; `None` while there is no
@@ -115,6 +137,8 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut egui::Ui, passed_s: f64) {
             settings::show(lab, ui);
             ui.separator();
             light::show(lab, ui);
+            ui.separator();
+            motion::show(lab, ui);
         });
     });
     if lab.face.shows_text {
@@ -128,6 +152,8 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut egui::Ui, passed_s: f64) {
     keys::help(lab, ui.ctx());
     bar::search(lab, ui.ctx());
     status::messages(lab, ui.ctx());
+    read::show(lab, ui.ctx());
+    motion::advance(lab, passed_s);
     if lab.face.turns {
         let turn = umbrage_core::glam::DVec2::new(passed_s * 0.05, 0.0);
         crate::camera::orbit(&mut lab.state.camera, turn);

@@ -1,6 +1,6 @@
 //! The pictures, and what the mouse does on them.
 
-use super::{bar, over};
+use super::{bar, gizmo, over};
 use crate::app::Lab;
 use crate::camera;
 use crate::state::Layout;
@@ -93,6 +93,7 @@ fn pane(lab: &mut Lab, ui: &mut egui::Ui, number: usize, cell: Rect, part: Rect)
         painter.rect_stroke(part, 0.0, Stroke::new(1.0, Color32::LIGHT_BLUE), StrokeKind::Inside);
     }
     take(lab, ui, number, cell, &response);
+    gizmo::show(lab, ui, number, cell, part);
 }
 
 /// What the mouse does on a pane.

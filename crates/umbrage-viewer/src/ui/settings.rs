@@ -1,6 +1,6 @@
 //! The settings of the active pane's technique: each as a slider, a choice or a switch.
 
-use super::bar;
+use super::{bar, presets};
 use crate::app::Lab;
 use eframe::egui::{self, Slider};
 use umbrage::{Param, ParamKind, Registry, Settings, TechniqueInfo, Value};
@@ -16,6 +16,10 @@ pub(super) fn show(lab: &mut Lab, ui: &mut egui::Ui) {
     ui.horizontal(|ui| {
         ui.heading(pane.id());
         ui.menu_button("Change…", |ui| bar::technique_menu(lab, ui)).response.on_hover_text("Another technique");
+        let text = "How it works, what it can't do, a tour in five steps (H)";
+        if pane.technique != RAY_TRACED && ui.button("Read").on_hover_text(text).clicked() {
+            lab.face.reads = Some(pane.id().into());
+        }
     });
     if pane.technique == RAY_TRACED {
         ui.label(RAY_TRACED_SUMMARY);
@@ -54,7 +58,8 @@ pub(super) fn show(lab: &mut Lab, ui: &mut egui::Ui) {
     if let Some(samples) = samples.filter(|_| settings.is_hard()) {
         label += &format!(":{LIGHT_SAMPLES}={samples}");
     }
-    lab.state.panes[lab.face.active].technique = label;
+    let preset = presets::show(lab, info, &label, ui);
+    lab.state.panes[lab.face.active].technique = preset.unwrap_or(label);
 }
 
 /// A parameter; the text of its new value where it was changed.

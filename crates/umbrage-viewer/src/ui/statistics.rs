@@ -2,13 +2,15 @@
 
 use crate::app::Lab;
 use crate::pane::{HISTORY, Pane};
+use crate::yardstick::Of;
 use eframe::egui::{self, Color32, Pos2, Stroke, Vec2};
 use std::collections::BTreeMap;
 use umbrage::Owner;
+use umbrage_report::RAY_TRACED;
 
 pub(super) fn show(lab: &mut Lab, ui: &mut egui::Ui) {
+    yardstick(lab, ui);
     let Some(pane) = lab.panes.get(lab.face.active) else { return };
-    ui.heading("Costs");
     times(pane, ui);
     sparkline(pane, ui);
     egui::Grid::new("stats").num_columns(2).show(ui, |ui| {
@@ -26,12 +28,12 @@ pub(super) fn show(lab: &mut Lab, ui: &mut egui::Ui) {
         line("memory", format!("{:.1} MiB", stats.bytes as f64 / 1_048_576.0));
         pane.counts.iter().for_each(|(name, count)| line(name, count.to_string()));
     });
+    let (width, height) = pane.size();
     ui.separator();
     ui.heading("Error");
     errors(lab, ui);
     ui.separator();
     ui.heading("Picture");
-    let (width, height) = pane.size();
     let divisor = lab.divisor();
     ui.label(format!("{width} × {height} pixels, 1 of {} of the window's", divisor * divisor));
     let mut chosen = lab.state.divisor;
@@ -55,6 +57,32 @@ fn resolution(divisor: Option<u32>) -> String {
         Some(n) => format!("1/{n}"),
     }
 }
+
+/// The active pane's cost over the least that any technique can have.
+fn yardstick(lab: &mut Lab, ui: &mut egui::Ui) {
+    let can = lab.state.panes.get(lab.face.active).is_some_and(|pane| pane.technique != RAY_TRACED);
+    let text = "Times it against a pass that does nothing and against maps with one comparison, all of them doing the \
+                whole of their work in every frame";
+    ui.horizontal(|ui| {
+        ui.heading("Costs");
+        let is_measuring = lab.yardstick.is_some();
+        let button = ui.add_enabled(can && !is_measuring, egui::Button::new("Measure × floor")).on_hover_text(text);
+        if button.clicked() {
+            lab.start_to_measure();
+        }
+        if is_measuring {
+            ui.spinner();
+        }
+    });
+    let now = Of::new(&lab.state, lab.face.active);
+    if let Some((_, ratios)) = lab.ratios.as_ref().filter(|(of, _)| Some(of) == now.as_ref()) {
+        ui.label(format!("{:.1} × floor", ratios.floor)).on_hover_text(FLOOR);
+        ui.label(format!("{:.2} × bare minimum", ratios.bare_minimum)).on_hover_text(BARE_MINIMUM);
+    }
+}
+
+const FLOOR: &str = "GPU time and preparation over those of a pass that reads depth and writes visibility";
+const BARE_MINIMUM: &str = "The same over maps as large, without bias and with one comparison";
 
 /// GPU time by pass, as bars.
 fn times(pane: &Pane, ui: &mut egui::Ui) {
@@ -99,6 +127,7 @@ fn errors(lab: &Lab, ui: &mut egui::Ui) {
             let error = truth.standard_error.map(|e| format!(", standard error {e:.4}")).unwrap_or_default();
             ui.weak(format!("truth: {} rays a pixel{error}", truth.samples));
         }
+        _ if lab.truth_waits() => _ = ui.weak("the truth waits until the casters stand (K)"),
         _ if lab.face.traces => _ = ui.weak("the truth is being traced…"),
         _ => _ = ui.weak("the truth is not traced (Panes, Trace the truth)"),
     }

@@ -3,6 +3,7 @@
 mod bad;
 mod common;
 mod first;
+mod hands;
 mod keep;
 mod see;
 mod soak;

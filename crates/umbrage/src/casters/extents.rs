@@ -40,7 +40,7 @@ impl Casters {
     }
 
     /// A box around everything that is shown.
-    pub(crate) fn all_bounds(&self) -> Bounds {
+    pub fn all_bounds(&self) -> Bounds {
         self.casting_content().union(self.receivers_bounds()).union(self.bystanders.content())
     }
 }
