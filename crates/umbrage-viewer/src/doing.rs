@@ -2,10 +2,16 @@
 
 use crate::app::Lab;
 use crate::stage::Stage;
+use crate::state::State;
 use crate::yardstick::{Of, Yardstick};
 use umbrage_report::{CameraPath, Moving};
 
 impl Lab {
+    /// The state with the camera and the lights where they are in its frame.
+    pub(crate) fn seen(&self) -> State {
+        self.stage.as_ref().map_or_else(|| self.state.clone(), |stage| stage.seen(&self.state))
+    }
+
     /// While casters move, the truth waits until they stand.
     pub(crate) fn truth_waits(&self) -> bool {
         let is_animated = self.stage.as_ref().is_some_and(Stage::is_animated);

@@ -170,7 +170,8 @@ fn on_pane(lab: &Lab, number: usize, picture: &str, point: DVec3, cell: Rect) ->
     if !is_of_screen(lab, number, picture) {
         return None;
     }
-    let eye = if is_overlooked(picture) { lab.state.eye() } else { &lab.state.camera };
+    let seen = lab.seen();
+    let eye = if is_overlooked(picture) { seen.eye() } else { &seen.camera };
     let clip = clip_from_world(eye, cell) * point.extend(1.0);
     (clip.w > 0.0).then(|| on_screen(clip, cell))
 }
@@ -194,7 +195,8 @@ pub(super) fn click(lab: &mut Lab, number: usize, at: Pos2, cell: Rect) {
     } else if is_of_screen(lab, number, &picture) {
         let size = cell.size().max(Vec2::splat(1.0));
         let pixel = (at - cell.min).clamp(Vec2::ZERO, size - Vec2::splat(1.0));
-        let camera = if is_overlooked(&picture) { lab.state.eye() } else { &lab.state.camera };
+        let seen = lab.seen();
+        let camera = if is_overlooked(&picture) { seen.eye() } else { &seen.camera };
         let shown = tracer.look(camera, (pixel.x as u32, pixel.y as u32), (size.x as u32, size.y as u32));
         shown.map(|shown| shown.surface.position)
     } else {

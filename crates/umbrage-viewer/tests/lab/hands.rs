@@ -207,6 +207,7 @@ fn a_frame_looks_as_the_command_renders_it() {
     };
     let (same, start) =
         (difference(&rendered(moving, path, frame, size)), difference(&rendered(moving, path, 0, size)));
-    // Pictures are stretched where a pane's width is no whole number of points: edges are off by a pixel.
+    // Pictures are stretched where a pane's width is no whole number of points, so that edges
+    // are off by a pixel.
     assert!(same < 0.03 && start > 10.0 * same.max(0.001), "{same} of the frame, {start} of another are off");
 }
