@@ -102,6 +102,12 @@ impl Journal {
         self.frames.push_back((new, kept));
     }
 
+    /// True where something waits to be written to a buffer.
+    #[cfg(test)]
+    pub fn writes_to(&self, buffer: &wgpu::Buffer) -> bool {
+        self.steps.range(self.recorded..).any(|step| matches!(step, Step::Write { to, .. } if to == buffer))
+    }
+
     /// Does all at once, for buffers that no frame has seen.
     pub fn finish(&mut self, gpu: &Gpu) {
         for step in self.steps.drain(..) {
