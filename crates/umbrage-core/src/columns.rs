@@ -12,8 +12,9 @@ pub fn matrix(columns: [[f32; 4]; 4]) -> DMat4 {
 ///
 /// ```
 /// use umbrage_core::{CameraView, columns};
-/// # let projection = [[1.0f32, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, -1.0], [0.0, 0.0, 0.1, 0.0]];
-/// let view = [[1.0f32, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.7, -5.0, 1.0]];
+/// # let (x, y) = ([1.0f32, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]);
+/// # let projection = [x, y, [0.0, 0.0, 0.0, -1.0], [0.0, 0.0, 0.1, 0.0]];
+/// let view = [x, y, [0.0, 0.0, 1.0, 0.0], [0.0, -1.7, -5.0, 1.0]];
 /// let camera = CameraView::from_matrices(columns::affine(view), columns::matrix(projection));
 /// assert!((camera.eye.z - 5.0).abs() < 1e-6 && camera.forward().z == -1.0);
 /// ```

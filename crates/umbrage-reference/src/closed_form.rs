@@ -8,8 +8,8 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
 /// How wide, metres, the penumbra of an edge is where the light's rays meet the surface at a right
-/// angle: of a light of this radius at `distance`, past a blocker `gap` metres from the surface. Of a
-/// sun, whose `distance` is infinite, the radius is the tangent of half its angle.
+/// angle: of a light of this radius at `distance`, past a blocker `gap` metres from the surface.
+/// Of a sun, whose `distance` is infinite, the radius is the tangent of half its angle.
 pub fn penumbra_width(radius: f64, distance: f64, gap: f64) -> f64 {
     if distance.is_infinite() { 2.0 * radius * gap } else { 2.0 * radius * gap / (distance - gap) }
 }

@@ -1,5 +1,5 @@
-//! Several pictures that take turns in one renderer: each with its own lights, techniques and upload
-//! memory, all of the same geometry.
+//! Several pictures that take turns in one renderer: each with its own lights, techniques and
+//! upload memory, all of the same geometry.
 
 use crate::lit::{Lit, Target};
 use crate::{LightPass, Renderer, checked_lights, no_pass};

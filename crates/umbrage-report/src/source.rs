@@ -49,8 +49,8 @@ impl Source {
         Ok(Self { asked: name.into(), scene, notes })
     }
 
-    /// The same with another camera or other lights, see [`umbrage_io::change`], and every animation
-    /// moved on by `time_s` seconds.
+    /// The same with another camera or other lights, see [`umbrage_io::change`], and every
+    /// animation moved on by `time_s` seconds.
     ///
     /// # Errors
     /// Whatever is wrong with the text of the change.

@@ -1,4 +1,5 @@
-// The scene from outside, with the visibility that a technique found for a camera that stands still.
+// The scene from outside, with the visibility that a technique found for a camera that stands
+// still.
 
 struct Params {
     // Clip space of the observer to that of the camera that stands still.

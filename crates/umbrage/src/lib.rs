@@ -1,8 +1,8 @@
 //! Real-time shadows on `wgpu`: every technique behind one interface.
 //!
 //! A technique answers one question, *which share of this light does each visible point see?*, and
-//! writes the answer to a [`VisibilityTarget`]. The page of the [`techniques`](mod@techniques) has a
-//! picture of each. A host engine brings its device, depth buffer, camera, casters and lights:
+//! writes the answer to a [`VisibilityTarget`]. The page of the [`techniques`](mod@techniques) has
+//! a picture of each. A host engine brings its device, depth buffer, camera, casters and lights:
 //!
 //! ```no_run
 //! use umbrage::depth_maps::Kernel;

@@ -113,8 +113,8 @@ impl LightFrom<'_> {
     }
 
     /// The point `d.x` and `d.y` half extents from the light's middle, as [`LightFrom::sample`]
-    /// gives points. Of a sun they are as far from the middle as makes equal areas of the disc equal
-    /// shares of it.
+    /// gives points. Of a sun they are as far from the middle as makes equal areas of the disc
+    /// equal shares of it.
     pub fn place(&self, d: DVec2) -> DVec4 {
         let [x, y] = self.axes;
         let on_axes = |d: DVec2| (x * d.x + y * d.y).extend(0.0);

@@ -146,7 +146,7 @@ fn picture(light: &LightSeen) -> ColorImage {
     let pixels = light.spots.data.iter().map(|spot| match spot.blocker {
         None if spot.brightness > 0.0 => lit(spot.brightness),
         None => Color32::from_gray(28),
-        // Beside the light what hides it goes on, darker.
+        // Beside the light what hides it is there too, darker.
         Some(blocker) if spot.brightness > 0.0 => color(blocker.model),
         Some(blocker) => darker(color(blocker.model)),
     });

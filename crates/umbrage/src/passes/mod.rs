@@ -158,9 +158,9 @@ impl Passes<'_> {
         own.map(|t| t.time_ms).reduce(|sum, ms| sum + ms)
     }
 
-    /// Names whom the following passes belong to in [`PassTime::owner`] and in their labels, such as
-    /// `light 3: map`, which debuggers show around what each pass draws. (No debug groups of several
-    /// passes besides: some versions of Mesa's software driver crash on these.)
+    /// Names whom the following passes belong to in [`PassTime::owner`] and in their labels, such
+    /// as `light 3: map`, which debuggers show around what each pass draws. (No debug groups of
+    /// several passes besides: some versions of Mesa's software driver crash on these.)
     pub fn owner(&mut self, owner: Owner) {
         self.owner = owner;
     }

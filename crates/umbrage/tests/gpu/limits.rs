@@ -276,7 +276,7 @@ fn a_mesh_whose_indices_just_fit_a_binding_casts_the_same_shadows() {
     }
 }
 
-/// A sphere of 10,000 triangles, with bumps, so that there are silhouettes all over it, above a floor.
+/// A sphere of 10,000 triangles above a floor, with bumps, so that there are silhouettes all over.
 fn bumps() -> Scene {
     let mut scene = scene("contact", 1.0);
     let mut sphere = primitive::sphere(100, 51);
