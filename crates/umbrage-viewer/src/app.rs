@@ -1,12 +1,15 @@
 //! The laboratory, frame by frame.
 
+mod asked;
+mod scenes;
+
 use crate::MOST_PANES;
-use crate::link::{self, Linked};
+use crate::link::Linked;
 use crate::observe::Observe;
 use crate::pace::Pace;
 use crate::pane::{Pane, Shared};
 use crate::show::Show;
-use crate::stage::{Opened, Opening, Stage};
+use crate::stage::{Opening, Stage};
 use crate::state::{PaneState, State};
 use crate::truth::{Truth, Wanted};
 use crate::ui::Face;
@@ -16,7 +19,7 @@ use eframe::egui;
 use eframe::egui_wgpu::RenderState;
 use std::sync::{Arc, Mutex, PoisonError};
 use umbrage::{Gpu, Owner, Registry};
-use umbrage_report::{RAY_TRACED, Source};
+use umbrage_report::RAY_TRACED;
 use web_time::{Duration, Instant};
 
 /// After which pictures are drawn as fine as one frame can be.
@@ -133,35 +136,6 @@ impl Lab {
         Ok(lab)
     }
 
-    /// Opens a scene, as users name it.
-    pub fn open(&mut self, name: &str) {
-        let asked = name.to_string();
-        self.opening = Some(Opening::start(name, move || Source::open(&asked).map_err(|e| e.to_string())));
-    }
-
-    /// Goes where a permalink leads.
-    ///
-    /// # Errors
-    /// A sentence: it is none.
-    pub fn follow(&mut self, link: &str) -> Result<(), String> {
-        let linked = link::read(link)?;
-        let scene = linked.scene().to_string();
-        self.linked = Some(linked);
-        match &self.stage {
-            Some(stage) if stage.source.asked == scene => self.take_link(),
-            _ => self.open(&scene),
-        }
-        Ok(())
-    }
-
-    fn take_link(&mut self) {
-        let (Some(linked), Some(stage)) = (self.linked.take(), &self.stage) else { return };
-        match linked.of(&stage.source.scene) {
-            Ok(state) => self.state = state,
-            Err(error) => self.face.say(error),
-        }
-    }
-
     /// One frame: takes over what has come, shows and asks, and draws what has changed.
     pub(crate) fn frame(&mut self, ui: &mut egui::Ui) {
         let now = Instant::now();
@@ -202,47 +176,6 @@ impl Lab {
         self.take_dropped();
     }
 
-    /// Opens the scene among files that were dropped together.
-    fn open_dropped(&mut self, files: Vec<egui::DroppedFileHandle>) {
-        let name = |file: &egui::DroppedFileHandle| file.path().display().to_string();
-        let is_scene = |name: &String| SCENE_FILES.iter().any(|end| name.to_lowercase().ends_with(end));
-        let names: Vec<String> = files.iter().map(name).collect();
-        let Some(scene) = names.iter().find(|name| is_scene(name)) else {
-            let known = SCENE_FILES.join(", ");
-            self.face.say(format!("{}: not a scene; scenes are files of {known}", names.join(", ")));
-            return;
-        };
-        #[cfg(not(target_family = "wasm"))]
-        self.open(scene);
-        #[cfg(target_family = "wasm")]
-        {
-            let scene = scene.clone();
-            let read = async move {
-                let mut bytes = umbrage_io::Bytes::new();
-                for (name, file) in names.into_iter().zip(files) {
-                    bytes.insert(name, file.bytes_async().await?);
-                }
-                Ok((scene, bytes))
-            };
-            // What is there at once comes with the next frame, too.
-            let _ = self.dropped.ask(read);
-        }
-    }
-
-    /// Opens what was dropped, now that it is read.
-    #[cfg(target_family = "wasm")]
-    fn take_dropped(&mut self) {
-        match self.dropped.take() {
-            Some(Ok((name, bytes))) => {
-                let asked = name.clone();
-                let open = move || Source::open_bytes(&name, &bytes).map_err(|e| e.to_string());
-                self.opening = Some(Opening::start(&asked, open));
-            }
-            Some(Err(error)) => self.face.say(error),
-            None => {}
-        }
-    }
-
     /// Has the device say what is done; browsers do so by themselves.
     fn poll(&self) {
         // What it returns is news of the queue, which nobody asked for.
@@ -270,54 +203,6 @@ impl Lab {
 
     fn traced(&self) -> Vec<Arc<crate::truth::Traced>> {
         self.state.shining().into_iter().filter_map(|light| self.truth.of(light).cloned()).collect()
-    }
-
-    fn take_opened(&mut self) {
-        loop {
-            match self.opening.as_ref().map(Opening::take) {
-                None | Some(Ok(None)) => return,
-                Some(Err(())) => self.opening = None,
-                Some(Ok(Some(Opened::Tracer(tracer)))) => {
-                    if let Some(stage) = &mut self.stage {
-                        stage.take_tracer(tracer);
-                    }
-                }
-                Some(Ok(Some(Opened::Scene(source)))) => {
-                    if let Err(error) = source.and_then(|source| self.enter(source)) {
-                        self.face.say(error);
-                        self.opening = None;
-                        self.linked = None;
-                    }
-                }
-            }
-        }
-    }
-
-    /// Shows another scene from now on.
-    fn enter(&mut self, source: Source) -> Result<(), String> {
-        source.light(0).map_err(|e| e.to_string())?;
-        let size = self.panes.first().map_or((64, 48), Pane::size);
-        source.notes.iter().for_each(|note| self.face.say(note.clone()));
-        let stage = Stage::new(&self.gpu, source, size)?;
-        self.panes.iter_mut().for_each(Pane::forget);
-        self.stage_version += 1;
-        self.face.see.mark = None;
-        self.pace = Pace::default();
-        self.truth.want(None);
-        let scene = &stage.source.scene;
-        self.state = State {
-            scene: stage.source.asked.clone(),
-            camera: scene.camera.clone(),
-            lights: scene.lights.clone(),
-            time_s: 0.0,
-            frame: 0,
-            light: Some(0),
-            observer: None,
-            ..self.state.clone()
-        };
-        self.stage = Some(stage);
-        self.take_link();
-        Ok(())
     }
 
     /// Draws the panes that have changed.
@@ -443,111 +328,12 @@ impl Lab {
         }
     }
 
-    /// Messages that are shown.
-    pub fn messages(&self) -> Vec<String> {
-        self.face.all_messages()
-    }
-
-    /// Shows another picture in a pane.
-    pub fn set_picture(&mut self, pane: usize, picture: &str) {
-        if let Some(pane) = self.state.panes.get_mut(pane) {
-            pane.picture = picture.into();
-        }
-    }
-
-    /// Has another technique work for a pane, written with its settings as on the command line.
-    pub fn set_technique(&mut self, pane: usize, technique: &str) {
-        if let Some(pane) = self.state.panes.get_mut(pane) {
-            pane.technique = technique.into();
-        }
-    }
-
-    /// The device that everything is drawn with.
-    pub fn gpu(&self) -> &Gpu {
-        &self.gpu
-    }
-
-    /// Pixels of each pane's picture across and down.
-    pub fn picture_size(&self) -> (u32, u32) {
-        self.panes.first().map_or((0, 0), Pane::size)
-    }
-
-    /// GPU time of the newest frame, all panes together, milliseconds; 0 where the adapter keeps no
-    /// time.
-    pub fn frame_ms(&self) -> f64 {
-        self.panes.iter().flat_map(|pane| &pane.times).map(|time| time.time_ms).sum()
-    }
-
-    /// Pixels of the window for each pixel of pictures; `None`: as the adapter can.
-    pub fn set_divisor(&mut self, divisor: Option<u32>) {
-        self.state.divisor = divisor.map(|divisor| divisor.clamp(1, crate::LARGEST_DIVISOR));
-    }
-
-    /// The device is gone: a window has to be opened anew.
-    pub fn is_lost(&self) -> bool {
-        self.is_lost
-    }
-
-    /// All that is seen, as [`Options::state`] takes it; `None` while no scene is open.
-    pub fn permalink(&self) -> Option<String> {
-        Some(link::write(&self.state, &self.stage.as_ref()?.source.scene))
-    }
-
-    /// The command that takes the picture of a pane; `None` while no scene is open.
-    pub fn command(&self, pane: usize) -> Option<String> {
-        let stage = self.stage.as_ref()?;
-        let samples = Some(self.truth_samples().max(1));
-        Some(link::command(
-            &self.state,
-            self.state.panes.get(pane)?,
-            &stage.source.scene,
-            stage.renderer.size(),
-            samples,
-        ))
-    }
-
-    /// The picture of a pane as it is seen; waits for the device.
-    ///
-    /// # Errors
-    /// [`umbrage::Error::Scene`] where there is no such pane, and what reading gives.
-    #[cfg(not(target_family = "wasm"))]
-    pub fn picture(&self, pane: usize) -> Result<umbrage_core::Image<[u8; 4]>, umbrage::Error> {
-        let none = || umbrage::Error::Scene(format!("there is no pane {pane}"));
-        umbrage::read::rgba8(&self.gpu, &self.panes.get(pane).ok_or_else(none)?.texture)
-    }
-
     /// A file is being written.
     fn is_keeping(&self) -> bool {
         #[cfg(not(target_family = "wasm"))]
         return self.keeping.is_some();
         #[cfg(target_family = "wasm")]
         false
-    }
-
-    /// A scene is open, and the panes show it.
-    pub fn is_shown(&self) -> bool {
-        let is_drawn = |pane: &Pane| pane.error.is_some() || pane.visibility.is_some();
-        self.opening.is_none() && self.panes.len() == self.state.panes.len() && self.panes.iter().all(is_drawn)
-    }
-
-    /// Rays for each pixel of the truth about the light that is shown, so far.
-    pub fn truth_samples(&self) -> u32 {
-        self.truth.of(self.state.light.unwrap_or_default()).map_or(0, |truth| truth.samples)
-    }
-
-    /// The mean absolute error of a pane against the truth as far as it is known.
-    pub fn mae(&self, pane: usize) -> Option<f64> {
-        self.panes.get(pane)?.scores.map(|scores| scores.mae)
-    }
-
-    /// Why a pane shows no picture.
-    pub fn error(&self, pane: usize) -> Option<&str> {
-        self.panes.get(pane)?.error.as_deref()
-    }
-
-    /// What the laboratory shows.
-    pub fn state(&self) -> &State {
-        &self.state
     }
 
     /// GPU time of a part of the host in the newest frame of a pane, milliseconds.

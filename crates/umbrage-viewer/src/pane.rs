@@ -1,21 +1,25 @@
 //! One picture of the laboratory: a technique, or the truth, and what is known of it.
 
+mod copy;
+mod made;
+
 use crate::later::Newest;
 use crate::loupe::Maps;
 use crate::observe::{self, Frozen, Observe};
-use crate::show::{FORMAT, Show, Way, truth_texture, upload};
+use crate::show::{FORMAT, Show, upload};
 use crate::slow::{self, Slow};
 use crate::stage::{Moment, Stage};
-use crate::state::{COLOR, ERROR, PaneState, State, VISIBILITY, is_overlooked};
+use crate::state::{ERROR, PaneState, State, VISIBILITY, is_overlooked};
 use crate::truth::Traced;
+use copy::{extremes, truth_view};
 use eframe::egui;
 use std::collections::VecDeque;
 use std::sync::Arc;
-use umbrage::{Error, Gpu, Owner, PassTime, Registry, Stats, read};
+use umbrage::{Error, Gpu, Owner, PassTime, Registry, Stats};
 use umbrage_core::{Camera, Image, Light};
 use umbrage_metrics::{Comparison, Scores, score};
-use umbrage_renderer::{LightPass, Lights};
-use umbrage_report::{Choice, Given, RAY_TRACED};
+use umbrage_renderer::Lights;
+use umbrage_report::RAY_TRACED;
 
 /// Frames whose times are shown.
 pub(crate) const HISTORY: usize = 200;
@@ -212,62 +216,6 @@ impl Pane {
         result
     }
 
-    /// Makes the techniques where others are asked for; settings that can be taken over are.
-    fn make(&mut self, shared: &Shared<'_>, stage: &mut Stage, drawn: &Drawn) -> Result<(), String> {
-        let numbers: Vec<usize> = drawn.lights.iter().map(|(number, _)| *number).collect();
-        if let Some(made) = &self.made
-            && (&made.technique, &made.numbers, made.truth) == (&drawn.pane.technique, &numbers, truth_of(drawn))
-        {
-            return Ok(());
-        }
-        let text = |e: &dyn std::fmt::Display| e.to_string();
-        let mut passes = Vec::new();
-        if drawn.pane.technique == RAY_TRACED {
-            for &number in &numbers {
-                let traced = shared.truth.iter().find(|t| t.light == number && t.visibility.size() == drawn.size);
-                let nothing = Image::filled(drawn.size.0, drawn.size.1, 0.0);
-                let picture = traced.map_or(&nothing, |traced| &traced.visibility);
-                let technique = Box::new(Given::new(shared.gpu, picture).map_err(|e| text(&e))?);
-                passes.push(LightPass { light: number, technique });
-            }
-        } else {
-            let choice = Choice::parse(shared.registry, &drawn.pane.technique, &[]).map_err(|e| text(&e))?;
-            for (number, light) in &drawn.lights {
-                choice.supports(light.shape.kind()).map_err(|e| text(&e))?;
-                if self.took_over(&choice, stage, &numbers)? {
-                    break;
-                }
-                passes.push(LightPass { light: *number, technique: choice.make(shared.gpu).map_err(|e| text(&e))? });
-            }
-            if let (Some(made), true) = (&mut self.made, passes.is_empty()) {
-                made.technique.clone_from(&drawn.pane.technique);
-                return Ok(());
-            }
-        }
-        let lights = stage.renderer.make_lights(passes).map_err(|e| text(&e))?;
-        let technique = drawn.pane.technique.clone();
-        if self.made.as_ref().is_none_or(|made| made.technique != technique) {
-            self.history.clear();
-        }
-        self.made = Some(Made { technique, numbers, lights, truth: truth_of(drawn) });
-        Ok(())
-    }
-
-    /// True where the techniques that are there took the settings over.
-    fn took_over(&mut self, choice: &Choice, stage: &mut Stage, numbers: &[usize]) -> Result<bool, String> {
-        let Some(made) = self.made.as_mut().filter(|made| made.numbers == numbers) else { return Ok(false) };
-        let is_same = made.technique.split(':').next() == Some(choice.info.id);
-        if !is_same || choice.light_samples.is_some() || made.technique.contains(umbrage_report::LIGHT_SAMPLES) {
-            return Ok(false);
-        }
-        stage.renderer.exchange_lights(&mut made.lights).map_err(|e| e.to_string())?;
-        let taken =
-            (0..numbers.len()).try_for_each(|pass| stage.renderer.set_settings(pass, &choice.settings).map(|_| ()));
-        stage.renderer.exchange_lights(&mut made.lights).map_err(|e| e.to_string())?;
-        taken.map_err(|e| e.to_string())?;
-        Ok(true)
-    }
-
     /// Draws with the lights that are in the renderer.
     fn draw_made(&mut self, shared: &Shared<'_>, stage: &mut Stage, drawn: &Drawn) -> Result<(), String> {
         let text = |e: Error| e.to_string();
@@ -352,106 +300,6 @@ impl Pane {
         made.and_then(|made| made.numbers.iter().position(|n| *n == number)).unwrap_or_default()
     }
 
-    /// Brings what the frame has left into the pane's own picture.
-    fn copy(
-        &mut self,
-        shared: &Shared<'_>,
-        stage: &Stage,
-        drawn: &Drawn,
-        main: usize,
-        camera: &Camera,
-    ) -> Result<(), String> {
-        let gpu = shared.gpu;
-        let renderer = &stage.renderer;
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
-        let visibility = || renderer.visibility_texture(main).map(view).map_err(|e| e.to_string());
-        match drawn.pane.picture.as_str() {
-            COLOR => {
-                // They differ in how the same bytes are read alone.
-                let (from, to) = (renderer.picture().as_image_copy(), self.texture.as_image_copy());
-                encoder.copy_texture_to_texture(from, to, self.texture.size());
-            }
-            VISIBILITY => shared.show.draw(&mut encoder, &visibility()?, None, &self.view, Way::Numbers([0.0, 1.0])),
-            ERROR => {
-                let truth = truth_view(gpu, shared.main_truth().map(|t| &**t), drawn.size);
-                let way = Way::Difference(drawn.gain);
-                shared.show.draw(&mut encoder, &visibility()?, Some(&truth), &self.view, way);
-            }
-            "depth" => {
-                let depth =
-                    wgpu::TextureViewDescriptor { aspect: wgpu::TextureAspect::DepthOnly, ..Default::default() };
-                let depth = renderer.depth_texture().create_view(&depth);
-                let high = self.extremes.map_or(1.0, |[_, high]| high);
-                shared.show.draw(
-                    &mut encoder,
-                    &depth,
-                    None,
-                    &self.view,
-                    Way::Numbers(drawn.range.unwrap_or([0.0, high])),
-                );
-                self.look(gpu, renderer.depth_texture(), 0);
-            }
-            other if slow::is_slow(other) => {
-                self.slow.ask(other, shared, stage, main, drawn.size, camera)?;
-            }
-            other => {
-                let technique = renderer.technique(main).ok_or("no light shines")?;
-                let views = technique.inside().debug_views();
-                let view = views.iter().find(|v| v.name == other).ok_or_else(|| {
-                    let names: Vec<_> = views.iter().map(|v| v.name).collect();
-                    let names = if names.is_empty() { "no views at all".into() } else { names.join(", ") };
-                    format!("there is no `{other}` of this light; its views: {names}")
-                })?;
-                let is_color = view.texture.format().components() == 4;
-                let has_depth = view.texture.format().has_depth_aspect();
-                let source = view.texture.create_view(&wgpu::TextureViewDescriptor {
-                    dimension: Some(wgpu::TextureViewDimension::D2),
-                    aspect: if has_depth { wgpu::TextureAspect::DepthOnly } else { wgpu::TextureAspect::All },
-                    base_array_layer: view.layer,
-                    array_layer_count: Some(1),
-                    base_mip_level: 0,
-                    mip_level_count: Some(1),
-                    ..Default::default()
-                });
-                let way = if is_color {
-                    Way::Colors
-                } else {
-                    Way::Numbers(drawn.range.unwrap_or([0.0, self.extremes.map_or(1.0, |[_, high]| high)]))
-                };
-                shared.show.draw(&mut encoder, &source, None, &self.view, way);
-                if !is_color {
-                    self.look(gpu, view.texture, view.layer);
-                }
-            }
-        }
-        gpu.queue.submit([encoder.finish()]);
-        Ok(())
-    }
-
-    /// Asks for the numbers of a view, once, to stretch them.
-    fn look(&mut self, gpu: &Gpu, texture: &wgpu::Texture, layer: u32) {
-        if self.extremes.is_none() && !self.looking.is_under_way() {
-            let (gpu, texture) = (gpu.clone(), texture.clone());
-            let found = self.looking.ask(async move { read::later::one_channel(&gpu, &texture, layer).await });
-            self.is_stale |= found.is_some();
-            self.extremes = found.and_then(Result::ok).map(|image| extremes(&image));
-        }
-    }
-
-    /// Asks for the visibility, unless it is under way.
-    fn read(&mut self, shared: &Shared<'_>, stage: &Stage, main: usize) {
-        self.is_unread = self.reading.is_under_way();
-        if self.is_unread {
-            return;
-        }
-        if let Ok(texture) = stage.renderer.visibility_texture(main) {
-            let (gpu, texture) = (shared.gpu.clone(), texture.clone());
-            let found = self.reading.ask(async move { read::later::one_channel(&gpu, &texture, 0).await });
-            self.visibility = found.and_then(Result::ok).map(Arc::new).or(self.visibility.take());
-        }
-    }
-
     /// Takes over what has come since the last frame; true where it has to be drawn again.
     pub fn take(&mut self, shared: &Shared<'_>) -> bool {
         let mut changed = false;
@@ -511,25 +359,6 @@ fn truth_of(drawn: &Drawn) -> u64 {
 /// The picture is a view into the technique.
 fn is_inside(registry: &Registry, pane: &PaneState) -> bool {
     registry.find(pane.id()).is_ok_and(|info| info.views.contains(&pane.picture.as_str()))
-}
-
-fn extremes(image: &Image<f32>) -> [f32; 2] {
-    let finite = image.data.iter().copied().filter(|v| v.is_finite());
-    let [low, high] = finite.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
-    if low < high { [low, high] } else { [0.0, if high > 0.0 { high } else { 1.0 }] }
-}
-
-fn truth_view(gpu: &Gpu, truth: Option<&Traced>, size: (u32, u32)) -> wgpu::TextureView {
-    let texture = truth_texture(gpu, size);
-    let picture = match truth.filter(|truth| truth.visibility.size() == size) {
-        None => Image::filled(size.0, size.1, -1.0),
-        Some(truth) => {
-            let pairs = truth.visibility.data.iter().zip(&truth.scored.data);
-            Image { width: size.0, height: size.1, data: pairs.map(|(v, s)| if *s { *v } else { -1.0 }).collect() }
-        }
-    };
-    upload(gpu, &texture, &picture);
-    texture.create_view(&Default::default())
 }
 
 fn target(gpu: &Gpu, (width, height): (u32, u32)) -> (wgpu::Texture, wgpu::TextureView) {
