@@ -78,7 +78,9 @@ pub(crate) struct Pane {
     is_unread: bool,
     /// Against the truth as far as it is known.
     pub scores: Option<Scores>,
-    scored: Option<(u64, *const Image<f32>)>,
+    /// What they are of: the truth's version and the picture, which is kept so that no other one
+    /// takes its address.
+    scored: Option<(u64, Arc<Image<f32>>)>,
     /// Smallest and largest value of the view that is shown.
     pub extremes: Option<[f32; 2]>,
     looking: Newest<Result<Image<f32>, Error>>,
@@ -159,6 +161,7 @@ impl Pane {
     /// Drops what belongs to a scene that is no more.
     pub fn forget(&mut self) {
         (self.made, self.drawn, self.visibility, self.scores) = (None, None, None, None);
+        self.scored = None;
         self.frozen = None;
         (self.stats, self.extremes) = (Stats::default(), None);
         self.counts.clear();
@@ -335,11 +338,13 @@ impl Pane {
             self.scores = None;
             return;
         };
-        let of = Some((shared.truth_version, Arc::as_ptr(visibility)));
-        if of == self.scored || truth.samples == 0 || visibility.size() != truth.visibility.size() {
+        let of = (shared.truth_version, visibility.clone());
+        let is_of = |scored: &(u64, Arc<Image<f32>>)| scored.0 == of.0 && Arc::ptr_eq(&scored.1, &of.1);
+        if self.scored.as_ref().is_some_and(is_of) || truth.samples == 0 || visibility.size() != truth.visibility.size()
+        {
             return;
         }
-        self.scored = of;
+        self.scored = Some(of);
         let comparison = Comparison {
             produced: visibility,
             reference: &truth.visibility,
