@@ -47,7 +47,7 @@ fn a_frame_of_what_moves_is_rendered_and_comes_again_after_a_round() {
     let start = picture(&["--moving", "casters"]);
     assert!(start != picture(&["--moving", "casters", "--frame", "12"]), "nothing moves");
     assert!(start == picture(&["--moving", "casters", "--frame", "60"]), "it ends elsewhere");
-    assert!(start == picture(&["--frame", "12"]), "it moves by itself");
+    assert!(picture(&[]) == picture(&["--frame", "12"]), "it moves by itself");
     assert!(start != picture(&["--path", "walk", "--frame", "3"]), "the camera stays");
 }
 

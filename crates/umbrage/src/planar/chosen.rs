@@ -238,7 +238,7 @@ fn enclose(casters: &Casters, plane: &mut LitPlane, cull: bool, found: &mut Vec<
 fn corners(casters: &Casters, placed: &Placed) -> [DVec3; 8] {
     let part = &casters.meshes()[placed.mesh as usize];
     // Of what moves by itself the host or a pose knows where it may be in the world.
-    if placed.posed || part.lent.is_some() {
+    if placed.posed {
         return placed.bounds.corners();
     }
     part.bounds.corners().map(|p| placed.world_from_mesh.transform_point3(p))
