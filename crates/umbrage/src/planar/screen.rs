@@ -91,7 +91,9 @@ fn grown(corners: &[DVec2; 4]) -> Option<[DVec2; 4]> {
     for (i, corner) in grown.iter_mut().enumerate() {
         let [before, after] = [side(i + 3), side(i)].map(|side| side.try_normalize());
         let [before, after] = [before?, after?].map(|side| side.perp() * -turn);
-        if !(before.perp_dot(after) * turn > LEAST_SINE) {
+        let sine = before.perp_dot(after) * turn;
+        // What is not a number is no corner either.
+        if sine.is_nan() || sine <= LEAST_SINE {
             return None;
         }
         *corner += (before + after) / (1.0 + before.dot(after));

@@ -43,9 +43,9 @@ pub fn of(technique: &Value, readme: &str, tour: &Tour, breaks: &[Break]) -> Str
         page += "</ul>";
     }
     let first = tour.steps.first().map(|step| tour.link(id, step)).unwrap_or_default();
-    let _ = write!(
+    let _ = writeln!(
         page,
-        "</main><iframe name=\"laboratory\" title=\"The laboratory\" src=\"../index.html#{first}\"></iframe></html>\n"
+        "</main><iframe name=\"laboratory\" title=\"The laboratory\" src=\"../index.html#{first}\"></iframe></html>"
     );
     page
 }
@@ -59,9 +59,9 @@ pub fn index(techniques: &[&Value]) -> String {
         let _ = write!(page, "<dt><a href=\"{id}.html\">{id}</a><dd>{summary}");
     }
     let all = json!({ "panes": [{ "technique": TRUTH, "picture": "color" }] });
-    let _ = write!(
+    let _ = writeln!(
         page,
-        "</dl><p><a href=\"../index.html#{}\">The laboratory alone</a></p></main></html>\n",
+        "</dl><p><a href=\"../index.html#{}\">The laboratory alone</a></p></main></html>",
         permalink(&all)
     );
     page
