@@ -43,7 +43,11 @@ pub fn pictures() -> Result<()> {
     println!("wrote {}", folder.display());
     let mut gallery = shell::cargo();
     gallery.args(["run", "--quiet", "--release", "--package", "umbrage", "--example", "gallery"]);
-    shell::run(gallery)
+    shell::run(gallery)?;
+    let mut laboratory = shell::cargo();
+    laboratory.args(["test", "--package", "umbrage-viewer", "--test", "lab", "technique_truth_and_error"]);
+    laboratory.env("UMBRAGE_WRITE_DOCS", "1");
+    shell::run(laboratory)
 }
 
 /// Compares all techniques on the scene of the README, files the numbers under `benchmarks/`, and
