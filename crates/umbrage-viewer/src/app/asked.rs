@@ -52,7 +52,7 @@ impl Lab {
         self.is_lost
     }
 
-    /// All that is seen, as [`Options::state`] takes it; `None` while no scene is open.
+    /// All that is seen, as [`crate::Options::state`] takes it; `None` while no scene is open.
     pub fn permalink(&self) -> Option<String> {
         Some(link::write(&self.state, &self.stage.as_ref()?.source.scene))
     }
