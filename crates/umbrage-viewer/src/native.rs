@@ -4,9 +4,11 @@ use crate::{Lab, Options};
 use eframe::egui;
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use std::cell::RefCell;
+use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
 use umbrage::{Gpu, Registry};
+use umbrage_report::{Choice, RAY_TRACED, Source};
 
 /// Opens the laboratory in a window and returns when it is closed.
 ///
@@ -16,6 +18,7 @@ pub fn run(registry: &Registry, options: &Options) -> Result<(), String> {
     if let Some(link) = &options.state {
         crate::link::read(link)?;
     }
+    check(registry, options)?;
     let mut options = options.clone();
     for _ in 0..MOST_LOSSES {
         let lost = Rc::new(RefCell::new(None));
@@ -25,6 +28,26 @@ pub fn run(registry: &Registry, options: &Options) -> Result<(), String> {
         options.state = Some(link);
     }
     Err(format!("the graphics device was lost {MOST_LOSSES} times; update its driver, or choose another --adapter"))
+}
+
+/// Finds what is wrong before a window is opened.
+fn check(registry: &Registry, options: &Options) -> Result<(), String> {
+    for technique in options.techniques.iter().filter(|technique| *technique != RAY_TRACED) {
+        Choice::parse(registry, technique, &[]).map_err(|e| e.to_string())?;
+    }
+    if let Some(scene) = options.scene.as_ref().filter(|scene| !Path::new(scene).exists()) {
+        Source::open(scene).map_err(|e| e.to_string())?;
+    }
+    let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let displays = ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"];
+    if cfg!(all(unix, not(target_vendor = "apple"))) && !displays.into_iter().any(is_set) {
+        return Err(
+            "there is no display for a window (DISPLAY and WAYLAND_DISPLAY are not set); `umbrage render` and \
+                    `umbrage compare` need none"
+                .into(),
+        );
+    }
+    Ok(())
 }
 
 /// Devices that may be lost, one after the other.
