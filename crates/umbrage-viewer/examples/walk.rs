@@ -22,7 +22,7 @@ impl eframe::App for Walker {
 fn main() {
     let registry = Registry::default();
     let renderer = WgpuTestRenderer::from_setup(setup(None));
-    let builder = Harness::builder().with_size([640.0, 480.0]).renderer(renderer);
+    let builder = Harness::builder().with_size([960.0, 480.0]).renderer(renderer);
     let mut harness = builder.build_eframe(|context| Walker {
         lab: Lab::new(context, &registry, &Options::default()).unwrap_or_else(|error| panic!("{error}")),
         walk: Walk::new(&registry),
