@@ -8,6 +8,7 @@ mod demo;
 mod docs;
 mod drivers;
 mod fuzz;
+mod isa;
 mod package;
 mod portable;
 mod setup;
@@ -49,6 +50,8 @@ cargo xtask COMMAND
   drivers [--core] [NAME=FILE ...]
           compare all techniques, and run the library's tests, on this machine's drivers, SwiftShader, a newer Mesa, and
           drivers by their Vulkan ICD files; --core compares a few small scenes on one driver and SwiftShader
+  isa     compile every shader of every technique for two of AMD's GPUs, which need not be there, with Mesa's RADV;
+          write registers, spills and throughput to benchmarks/isa/ and tell what has changed
   tables za|fe|px
           measure the tables of three theses again: filtered and soft maps (za), splits (fe), wedges (px);
           write maps/, splits/ or loops/ there
@@ -85,6 +88,7 @@ fn run() -> Result<()> {
         ["bench"] => bench::run(),
         ["bevy"] => bevy::run(),
         ["fuzz", minutes] => fuzz::run(minutes),
+        ["isa"] => isa::run(),
         ["drivers", rest @ ..] => drivers::run(rest),
         ["docs"] => docs::tables(),
         ["docs", "--pictures"] => docs::pictures(),

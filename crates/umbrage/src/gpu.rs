@@ -4,6 +4,7 @@ mod adapter;
 mod arrival;
 #[cfg(not(target_family = "wasm"))]
 mod blocking;
+mod pipelines;
 #[cfg(any(feature = "native", target_family = "wasm"))]
 mod request;
 mod shared;
@@ -13,6 +14,7 @@ use crate::error::Error;
 use crate::snapping;
 pub use adapter::AdapterSummary;
 pub(crate) use arrival::arrival;
+pub use pipelines::{PipelineKind, PipelineParts, StageParts};
 use shared::Shared;
 use std::pin::pin;
 use std::sync::{Arc, OnceLock};

@@ -14,41 +14,41 @@ const MOST: usize = 1024;
 /// All that is shared. What is in use lives on in who uses it, whatever happens here.
 #[derive(Debug, Default)]
 pub(super) struct Shared {
-    modules: Once<(&'static str, &'static [Module]), wgpu::ShaderModule>,
-    bind_group_layouts: Once<Vec<wgpu::BindGroupLayoutEntry>, wgpu::BindGroupLayout>,
-    pipeline_layouts: Once<Vec<Option<wgpu::BindGroupLayout>>, wgpu::PipelineLayout>,
+    pub(super) modules: Once<(&'static str, &'static str, &'static [Module]), wgpu::ShaderModule>,
+    pub(super) bind_group_layouts: Once<Vec<wgpu::BindGroupLayoutEntry>, wgpu::BindGroupLayout>,
+    pub(super) pipeline_layouts: Once<Vec<Option<wgpu::BindGroupLayout>>, wgpu::PipelineLayout>,
     /// By descriptors as text, since these have numbers that do not hash.
     samplers: Once<String, wgpu::Sampler>,
-    render: Once<Render, wgpu::RenderPipeline>,
-    compute: Once<(Option<wgpu::PipelineLayout>, Stage), wgpu::ComputePipeline>,
+    pub(super) render: Once<Render, wgpu::RenderPipeline>,
+    pub(super) compute: Once<(Option<wgpu::PipelineLayout>, Stage), wgpu::ComputePipeline>,
     /// What the host has given, and what it may store.
     pub cache: OnceLock<wgpu::PipelineCache>,
 }
 
 /// Values by what they are made from.
 #[derive(Debug)]
-struct Once<K, V>(Mutex<HashMap<K, Arc<OnceLock<V>>>>);
+pub(super) struct Once<K, V>(Mutex<HashMap<K, Arc<OnceLock<V>>>>);
 
 /// A shader stage of a pipeline.
-#[derive(Debug, PartialEq, Eq, Hash)]
-struct Stage {
-    module: wgpu::ShaderModule,
-    entry: Option<String>,
-    constants: Vec<(String, u64)>,
-    zeroes: bool,
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Stage {
+    pub module: wgpu::ShaderModule,
+    pub entry: Option<String>,
+    pub constants: Vec<(String, u64)>,
+    pub zeroes: bool,
 }
 
 /// All of a [`wgpu::RenderPipelineDescriptor`] but its label.
-#[derive(Debug, PartialEq, Eq, Hash)]
-struct Render {
-    layout: Option<wgpu::PipelineLayout>,
-    vertex: Stage,
-    buffers: Vec<Option<(u64, wgpu::VertexStepMode, Vec<wgpu::VertexAttribute>)>>,
-    primitive: wgpu::PrimitiveState,
-    depth_stencil: Option<wgpu::DepthStencilState>,
-    multisample: wgpu::MultisampleState,
-    fragment: Option<(Stage, Vec<Option<wgpu::ColorTargetState>>)>,
-    multiview: Option<std::num::NonZeroU32>,
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Render {
+    pub layout: Option<wgpu::PipelineLayout>,
+    pub vertex: Stage,
+    pub buffers: Vec<Option<(u64, wgpu::VertexStepMode, Vec<wgpu::VertexAttribute>)>>,
+    pub primitive: wgpu::PrimitiveState,
+    pub depth_stencil: Option<wgpu::DepthStencilState>,
+    pub multisample: wgpu::MultisampleState,
+    pub fragment: Option<(Stage, Vec<Option<wgpu::ColorTargetState>>)>,
+    pub multiview: Option<std::num::NonZeroU32>,
 }
 
 impl<K, V> Default for Once<K, V> {
@@ -69,6 +69,25 @@ impl<K: Eq + Hash, V: Clone> Once<K, V> {
             slots.entry(key).or_default().clone()
         };
         slot.get_or_init(make).clone()
+    }
+
+    /// What has been made so far is made from these.
+    pub fn keys(&self) -> Vec<K>
+    where
+        K: Clone,
+    {
+        let slots = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        slots.iter().filter(|(_, made)| made.get().is_some()).map(|(key, _)| key.clone()).collect()
+    }
+
+    /// What `value` was made from.
+    pub fn key_of(&self, value: &V) -> Option<K>
+    where
+        K: Clone,
+        V: PartialEq,
+    {
+        let slots = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        slots.iter().find(|(_, made)| made.get() == Some(value)).map(|(key, _)| key.clone())
     }
 
     fn clear(&self) {
@@ -162,11 +181,11 @@ impl Gpu {
     /// The module of a source and of the modules in which its needs are looked for first.
     pub(crate) fn shader_module(
         &self,
-        name: &str,
-        key: (&'static str, &'static [Module]),
+        name: &'static str,
+        (source, modules): (&'static str, &'static [Module]),
         text: impl FnOnce() -> String,
     ) -> wgpu::ShaderModule {
-        self.shared.modules.get(key, || {
+        self.shared.modules.get((name, source, modules), || {
             let source = wgpu::ShaderSource::Wgsl(text().into());
             self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(name), source })
         })
