@@ -61,23 +61,26 @@ fn with_newlines(text: String) -> String {
     text.replace("\r\n", "\n").replace('\r', "\n")
 }
 
-/// A text on one line, at most `longest` characters of it: control characters, and those that turn
+/// A text on one line of about `longest` characters at most: control characters, and those that turn
 /// the direction of writing, are spelled out, since a terminal would obey them.
 pub fn printable(text: &str, longest: usize) -> Cow<'_, str> {
     let is_short = text.len() <= longest || text.chars().nth(longest).is_none();
     if is_short && !text.contains(is_command) {
         return Cow::Borrowed(text);
     }
-    let mut line = String::new();
-    for (number, letter) in text.chars().enumerate() {
-        if number >= longest {
+    let (mut line, mut written) = (String::new(), 0);
+    for letter in text.chars() {
+        if written >= longest {
             line.push('…');
             break;
         }
+        let before = line.len();
         match is_command(letter) {
             true => line.extend(letter.escape_default()),
             false => line.push(letter),
         }
+        // What is spelled out takes as many characters as bytes.
+        written += if is_command(letter) { line.len() - before } else { 1 };
     }
     Cow::Owned(line)
 }
@@ -128,5 +131,7 @@ mod tests {
         assert_eq!(printable("plain ü", 20), "plain ü");
         assert_eq!(printable("a\u{1b}[31m\u{7}\u{202e}\n", 99), "a\\u{1b}[31m\\u{7}\\u{202e}\\n");
         assert_eq!(printable("üüüüü", 3), "üüü…");
+        // What is spelled out counts as it is written.
+        assert_eq!(printable("\0\0\0\0\0", 8), "\\u{0}\\u{0}…");
     }
 }
