@@ -14,16 +14,27 @@ const BUILT_IN: [&str; 4] = ["primitives", "atrium:0.25", "city", "terrain"];
 /// Every technique, and the filters that prices are quoted for.
 const TECHNIQUES: &str = "all,pcf:kernel=2x2,pcf:kernel=5,pcf:kernel=7";
 const FRAMES: &str = "8";
+const FRAMES_OF_A_CARD: &str = "64";
 const SIZE: &str = "1024x768";
 
 /// Runs the benchmark and writes `benchmarks/<date>-<machine>/`.
 pub fn run() -> Result<()> {
     setup::run(Profile::Release)?;
+    measure(&[], FRAMES)
+}
+
+/// The same on the adapter of this number, with as many frames as a graphics card draws in no time.
+pub fn run_on(adapter: u32) -> Result<()> {
+    measure(&["--adapter", &adapter.to_string()], FRAMES_OF_A_CARD)
+}
+
+fn measure(adapter: &[&str], frames: &str) -> Result<()> {
     let shared = shared_scenes();
     let mut arguments = vec!["bench"];
     arguments.extend(BUILT_IN);
     arguments.extend(shared.iter().map(String::as_str));
-    arguments.extend(["--techniques", TECHNIQUES, "--frames", FRAMES, "--size", SIZE, "--json"]);
+    arguments.extend(["--techniques", TECHNIQUES, "--frames", frames, "--size", SIZE, "--json"]);
+    arguments.extend(adapter);
     let text = shell::output(shell::umbrage(Profile::Release, &arguments))?;
     let json: Value = serde_json::from_str(&text).context("`umbrage bench --json` printed no JSON")?;
 
@@ -36,7 +47,7 @@ pub fn run() -> Result<()> {
     };
     write("bench.json", &text)?;
     if !folder.join("README.md").exists() {
-        write("README.md", &readme(made))?;
+        write("README.md", &readme(made, frames))?;
     }
     println!("wrote {}", folder.display());
     Ok(())
@@ -82,10 +93,10 @@ fn slug(name: &str) -> String {
     plain.split_whitespace().take(4).collect::<Vec<_>>().join("-")
 }
 
-fn readme(made: &Value) -> String {
+fn readme(made: &Value, frames: &str) -> String {
     let text = heading("Benchmark", made, "cargo xtask bench");
     format!(
-        "{text}Raw numbers: `bench.json`. Times are medians of {FRAMES} frames at {SIZE}, runs interleaved.\n\n\
+        "{text}Raw numbers: `bench.json`. Times are medians of {frames} frames at {SIZE}, runs interleaved.\n\n\
          ## What the numbers say\n"
     )
 }

@@ -8,6 +8,7 @@ mod demo;
 mod docs;
 mod drivers;
 mod fuzz;
+mod gpu_day;
 mod isa;
 mod package;
 mod portable;
@@ -50,6 +51,9 @@ cargo xtask COMMAND
   drivers [--core] [NAME=FILE ...]
           compare all techniques, and run the library's tests, on this machine's drivers, SwiftShader, a newer Mesa, and
           drivers by their Vulkan ICD files; --core compares a few small scenes on one driver and SwiftShader
+  gpu-day [--any]
+          on a graphics card, in eight minutes: compare all techniques with the truth and with a software driver, run the
+          library's tests, and write a benchmark; --any takes a software adapter where there is nothing else
   isa     compile every shader of every technique for two of AMD's GPUs, which need not be there, with Mesa's RADV;
           write registers, spills and throughput to benchmarks/isa/ and tell what has changed
   tables za|fe|px
@@ -88,6 +92,8 @@ fn run() -> Result<()> {
         ["bench"] => bench::run(),
         ["bevy"] => bevy::run(),
         ["fuzz", minutes] => fuzz::run(minutes),
+        ["gpu-day"] => gpu_day::run(false),
+        ["gpu-day", "--any"] => gpu_day::run(true),
         ["isa"] => isa::run(),
         ["drivers", rest @ ..] => drivers::run(rest),
         ["docs"] => docs::tables(),

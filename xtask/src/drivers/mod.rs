@@ -36,6 +36,10 @@ const WHOLE: Matrix = Matrix {
     tests: true,
 };
 
+/// What fits in the minutes for which a graphics card may be there.
+const CARD: Matrix =
+    Matrix { scenes: &["primitives", "lantern", "contact", "picket-fence", "city:0.25"], size: "320x240", tests: true };
+
 /// Compares all techniques on the machine's own driver, on SwiftShader, and on those of `arguments`
 /// (`NAME=FILE`, a driver's JSON file); with `--core` on a few small scenes only, and otherwise on
 /// all other adapters and on a newer Mesa, too, with the tests of the library.
@@ -55,7 +59,18 @@ pub fn run(arguments: &[&str]) -> Result<()> {
         let file = fs::canonicalize(file).with_context(|| format!("can't find the driver file {file}"))?;
         drivers.push(Driver::described(name, file));
     }
-    let results = drivers.iter().map(|driver| driver.measure(&matrix, FOLDER)).collect::<Result<Vec<_>>>()?;
+    compare(&drivers, &matrix)
+}
+
+/// The adapter of this number against that of a software driver, where there is one.
+pub fn card(card: u32, software: Option<u32>) -> Result<()> {
+    let drivers: Vec<_> = software.into_iter().chain([card]).map(Driver::adapter).collect();
+    compare(&drivers, &CARD)
+}
+
+/// Measures all of them and shows what is worse than on the first.
+fn compare(drivers: &[Driver], matrix: &Matrix) -> Result<()> {
+    let results = drivers.iter().map(|driver| driver.measure(matrix, FOLDER)).collect::<Result<Vec<_>>>()?;
     let (first, others) = results.split_first().context("there is no driver")?;
     let wrong: usize = others.iter().map(|other| other.show_against(first)).sum();
     println!("\n{}", results::heading());
