@@ -35,7 +35,11 @@ impl Table {
             "technique,setting,shader,stage,vgprs,sgprs,spilled,scratch_bytes,lds_bytes,code_bytes,instructions,\
              latency,inverse_throughput,unchecked,subgroups_per_simd\n",
         );
-        for (key, (dearest, setting)) in &self.dearest {
+        // What technique `none` takes, as for casters that move, is nobody else's.
+        let is_own = |(technique, shader, stage): &Key| {
+            technique == "none" || !self.dearest.contains_key(&("none".to_string(), shader.clone(), *stage))
+        };
+        for (key, (dearest, setting)) in self.dearest.iter().filter(|(key, _)| is_own(key)) {
             let at_defaults = self.at_defaults.get(key);
             if let Some(cost) = at_defaults {
                 line(&mut text, key, "", cost);

@@ -5,10 +5,13 @@ use umbrage::core::glam::{DVec2, DVec3};
 use umbrage::core::{Camera, Light, LightShape};
 use umbrage::{Error, Gpu, Param, ParamKind, PipelineParts, Receivers, Registry, Technique, TechniqueInfo, baseline};
 
+/// Makes a technique for a device.
+type Make = dyn Fn(&Gpu) -> Result<Box<dyn Technique>, Error>;
+
 /// A technique and settings under one name, as the command writes it.
 pub struct Set {
     pub name: String,
-    make: Box<dyn Fn(&Gpu) -> Result<Box<dyn Technique>, Error>>,
+    make: Box<Make>,
     /// Lights are chosen by it where not all are tried.
     number: usize,
 }

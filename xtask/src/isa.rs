@@ -1,5 +1,5 @@
-//! What shaders cost on GPUs that need not be there: `isa/` compiles them with Mesa's RADV, and what
-//! it finds is kept under `benchmarks/isa/` and compared with what lay there.
+//! What shaders cost on GPUs that need not be there: `isa/` compiles them with Mesa's RADV, and
+//! what it finds is kept under `benchmarks/isa/` and compared with what lay there.
 
 use crate::shell;
 use anyhow::{Context, Result, bail};

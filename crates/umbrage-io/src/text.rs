@@ -61,8 +61,8 @@ fn with_newlines(text: String) -> String {
     text.replace("\r\n", "\n").replace('\r', "\n")
 }
 
-/// A text on one line of about `longest` characters at most: control characters, and those that turn
-/// the direction of writing, are spelled out, since a terminal would obey them.
+/// A text on one line of about `longest` characters at most: control characters, and those that
+/// turn the direction of writing, are spelled out, since a terminal would obey them.
 pub fn printable(text: &str, longest: usize) -> Cow<'_, str> {
     let is_short = text.len() <= longest || text.chars().nth(longest).is_none();
     if is_short && !text.contains(is_command) {
