@@ -8,7 +8,7 @@ use crate::{
 };
 use anyhow::Result;
 use clap::Args;
-use umbrage_report::{Bench as Plan, CameraPath, Moving};
+use umbrage_report::{Bench as Plan, Moving, Way};
 
 /// Measures techniques: GPU time of each pass, frame, draws, triangles, memory, against the floor
 /// of the same run
@@ -29,7 +29,9 @@ Techniques take turns frame by frame. `floor` is one full-screen pass that reads
 flicker: the mean absolute change of visibility, 0 to 1, from one frame to the next at points that are fixed in the scene. A point \
 counts where two frames show it within 1/8 pixel of a pixel's centre, so that nothing is interpolated. Lights and casters stand \
 still, so the truth does not change; the change of the ray tracer's visibility at the same pixels is the effect of this 1/8 pixel. \
-The ratio of both is 1 where shadows are still, and grows with edges that crawl, jump or sparkle.
+The ratio of both is 1 where shadows are still, and grows with edges that crawl, jump or sparkle. On the paths `light` and `sun` the \
+light moves before a camera that stands: across the view by a thousandth of its distance a frame, or as the sun does in a second (0.0042°; \
+directional lights only). The truth changes, too, then. The change error is the mean of |change − the truth's change|.
 
 --bytes counts the fragments of every render pass that reach its target, and multiplies them by the bytes that each reads and writes: attachments (depth to test and to write, colour to write and to blend), texels of maps, and depth and normal of the receiver. What a test of depth rejects or a shader discards is not counted, and compute passes are not. A technique whose fragments differ in what they read, and does not say how much that is at most, has no sum.")]
 pub struct Bench {
@@ -42,9 +44,10 @@ pub struct Bench {
     /// techniques keep what does not change
     #[arg(long, value_name = "WHAT", default_value = "none")]
     moving: Moving,
-    /// Measure flicker along a path of the camera: walk, strafe, turn or fly
+    /// Measure flicker along a path of the camera (walk, strafe, turn, fly) or of the light (light,
+    /// sun)
     #[arg(long, value_name = "NAME", conflicts_with_all = ["moving", "lights_together"])]
-    path: Option<CameraPath>,
+    path: Option<Way>,
     /// Rays for each point of the reference that flicker is set against
     #[arg(long, value_name = "N", default_value_t = 64, requires = "path", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     samples: u32,

@@ -100,6 +100,7 @@ fn is_same_surface(before: &Frame, after: &Frame, found: &FixedPoint, point: DVe
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Flicker {
     sum: f64,
+    off: f64,
     points: usize,
 }
 
@@ -114,6 +115,31 @@ impl Flicker {
             self.sum += if before.is_finite() { difference(after, before).abs() } else { 1.0 };
         }
         self.points += points.len();
+    }
+
+    /// The same, and how far the changes are off those of the truth, `true_before` and
+    /// `true_after`, at the same points; what is not finite is off by 1.
+    pub fn add_beside(
+        &mut self,
+        points: &[FixedPoint],
+        [before, after]: [&Image<f32>; 2],
+        [true_before, true_after]: [&Image<f32>; 2],
+    ) {
+        self.add(points, before, after);
+        let value = |picture: &Image<f32>, (x, y): (u32, u32)| {
+            picture.get(x.into(), y.into()).map_or(f64::NAN, |v| f64::from(*v))
+        };
+        for FixedPoint { before: first, after: then } in points {
+            let change = value(after, *then) - value(before, *first);
+            let off = (change - (value(true_after, *then) - value(true_before, *first))).abs();
+            self.off += if off.is_finite() { off } else { 1.0 };
+        }
+    }
+
+    /// Mean of |change − the truth's change|, of what was added beside the truth; `None` where
+    /// there was no point.
+    pub fn mean_off(&self) -> Option<f64> {
+        (self.points > 0).then(|| self.off / self.points as f64)
     }
 
     /// Mean of |after − before|; `None` where there was no point.
@@ -205,5 +231,22 @@ mod tests {
         assert_eq!((flicker.mean(), flicker.points()), (Some(1.0), 2));
         flicker.add(&points, &picture(0.25, 0.5), &picture(0.5, 0.5));
         assert_eq!(flicker.mean(), Some((1.0 + 1.0 + 0.25) / 4.0));
+    }
+
+    #[test]
+    fn a_change_that_the_truth_makes_too_is_not_off() {
+        let points = fixed_points(&frame(0.0), &frame(0.0));
+        let [at_first, then, late] = [0.0, 1.0, 0.5].map(|crawl| stripes(8.0, 0.0, crawl));
+        let mut flicker = Flicker::default();
+        flicker.add_beside(&points, [&at_first, &then], [&at_first, &then]);
+        assert_eq!(flicker.mean_off(), Some(0.0));
+        assert!(flicker.mean().is_some_and(|mean| (mean - 0.125).abs() < 0.01));
+        // A shadow that stands while the true one moves by a pixel of eight.
+        let mut lazy = Flicker::default();
+        lazy.add_beside(&points, [&late, &late], [&at_first, &then]);
+        assert_eq!((lazy.mean(), lazy.mean_off()), (Some(0.0), flicker.mean()));
+        let mut broken = Flicker::default();
+        broken.add_beside(&points, [&late.map(|_| f32::NAN), &late], [&at_first, &then]);
+        assert_eq!(broken.mean_off(), Some(1.0));
     }
 }

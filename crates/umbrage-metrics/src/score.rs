@@ -3,7 +3,13 @@
 use crate::error::{Error, same_size};
 #[cfg(feature = "flip")]
 use crate::flip;
-use crate::{interior::interior, ssim};
+use crate::{
+    contact::contact_gap,
+    contour::{EdgeOffset, edge_offset},
+    grain,
+    interior::interior,
+    ssim,
+};
 use umbrage_core::Image;
 
 /// A pixel is correct where its visibility is off by no more than this.
@@ -24,6 +30,8 @@ pub struct Comparison<'a> {
     /// How far from a shadow edge a pixel must be to count for [`Scores::interior_pct`], see
     /// [`interior()`].
     pub reach: Option<&'a Image<f32>>,
+    /// Where surfaces touch, see [`contacts`](crate::contacts()), for [`Scores::contact_gap`].
+    pub contacts: Option<&'a Image<bool>>,
 }
 
 /// Errors over the scored pixels. With d = produced − reference:
@@ -55,6 +63,18 @@ pub struct Scores {
     /// `mae` as a share of that of the perfect hard shadow: 1 = no better than hard, 0 = the truth.
     /// `None` where the hard shadow is not given or is the truth itself.
     pub vs_hard: Option<f64>,
+    /// Grain: the standard deviation of what changes from pixel to pixel in the error of smooth
+    /// penumbras, less the mean over 5×5 pixels. `None` where there is no smooth penumbra.
+    pub noise: Option<f64>,
+    /// Pixels that differ from all their eight neighbours by more than 0.3 where the reference has
+    /// none such.
+    pub speckles: usize,
+    /// How far the outlines of shadows, where visibility is one half, lie from the reference's,
+    /// pixels. `None` where there is no outline.
+    pub edge_offset: Option<EdgeOffset>,
+    /// Mean width of the light between casters and the shadows that should touch them, pixels.
+    /// `None` where contacts are not given, and where none is dark.
+    pub contact_gap: Option<f64>,
     /// How many pixels were compared.
     pub scored_pixels: usize,
     /// How many of them were NaN or infinite.
@@ -66,11 +86,12 @@ pub struct Scores {
 /// # Errors
 /// Pictures of different sizes, and a mask without any pixel.
 pub fn score(comparison: &Comparison<'_>) -> Result<Scores, Error> {
-    let Comparison { produced, reference, mask, hard, reach } = *comparison;
+    let Comparison { produced, reference, mask, hard, reach, contacts } = *comparison;
     same_size("produced", produced, reference)?;
     same_size("mask", mask, reference)?;
     hard.map_or(Ok(()), |h| same_size("hard shadow", h, reference))?;
     reach.map_or(Ok(()), |r| same_size("reach", r, reference))?;
+    contacts.map_or(Ok(()), |c| same_size("contacts", c, reference))?;
 
     let errors = differences(produced, reference, mask);
     if errors.is_empty() {
@@ -95,9 +116,25 @@ pub fn score(comparison: &Comparison<'_>) -> Result<Scores, Error> {
         leak: mean(&|d| d.max(0.0)),
         false_shadow: mean(&|d| (-d).max(0.0)),
         vs_hard: (hard_mae > 0.0).then(|| mae / hard_mae),
+        noise: grain::noise(produced, reference, mask),
+        speckles: grain::speckles(produced, reference, mask),
+        edge_offset: edge_offset(produced, reference, mask),
+        contact_gap: contacts.and_then(|contacts| contact_gap(produced, reference, mask, contacts)),
         scored_pixels: errors.len(),
         not_finite: produced.data.iter().zip(&mask.data).filter(|(v, scored)| **scored && !v.is_finite()).count(),
     })
+}
+
+/// What the randomness of a reference of `samples` rays a pixel is at most, as the mean of its
+/// standard error over the scored pixels: √(v (1 − v) / samples), that of independent rays. Rays
+/// that are spread over the light do better. 0 where nothing is scored.
+///
+/// No smaller difference between two errors says anything.
+pub fn standard_error(reference: &Image<f32>, mask: &Image<bool>, samples: u32) -> f64 {
+    let scored = reference.data.iter().zip(&mask.data).filter(|(_, scored)| **scored);
+    let errors = scored.map(|(&v, _)| (f64::from(v * (1.0 - v)).max(0.0) / f64::from(samples.max(1))).sqrt());
+    let (sum, count) = errors.fold((0.0, 0_usize), |(sum, count), error| (sum + error, count + 1));
+    sum / count.max(1) as f64
 }
 
 /// Produced − reference; 1 where the produced value is not finite.
@@ -143,7 +180,8 @@ mod tests {
         let mask = Image::filled(48, 32, true);
         let hard = ramp().map(|v| v.round());
         let reference = ramp();
-        let comparison = Comparison { produced, reference: &reference, mask: &mask, hard: Some(&hard), reach: None };
+        let comparison =
+            Comparison { produced, reference: &reference, mask: &mask, hard: Some(&hard), reach: None, contacts: None };
         score(&comparison).expect("comparable pictures")
     }
 
@@ -214,8 +252,14 @@ mod tests {
         let mask = Image::from_fn(48, 32, |x, _| x < 30);
         (30..48).for_each(|x| (0..32).for_each(|y| produced[(x, y)] = f32::NAN));
         let reference = ramp();
-        let comparison =
-            Comparison { produced: &produced, reference: &reference, mask: &mask, hard: None, reach: None };
+        let comparison = Comparison {
+            produced: &produced,
+            reference: &reference,
+            mask: &mask,
+            hard: None,
+            reach: None,
+            contacts: None,
+        };
         let scores = score(&comparison).expect("comparable pictures");
         assert_eq!((scores.mae, scores.flip, scores.not_finite, scores.vs_hard), (0.0, 0.0, 0, None), "{scores:?}");
         assert!((scores.ssim - 1.0).abs() < 1e-12, "{scores:?}");
@@ -224,13 +268,32 @@ mod tests {
     #[test]
     fn pictures_that_do_not_fit_are_errors() {
         let (a, small, mask) = (ramp(), Image::filled(4, 4, 1.0), Image::filled(48, 32, true));
-        let with = Comparison { produced: &a, reference: &a, mask: &mask, hard: None, reach: None };
+        let with = Comparison { produced: &a, reference: &a, mask: &mask, hard: None, reach: None, contacts: None };
         let wrong = score(&Comparison { produced: &small, ..with });
         assert_eq!(wrong, Err(Error::Size { name: "produced", size: (4, 4), reference: (48, 32) }));
         let wrong = score(&Comparison { hard: Some(&small), ..with });
         assert!(matches!(wrong, Err(Error::Size { name: "hard shadow", .. })));
         let none = Image::filled(48, 32, false);
         assert_eq!(score(&Comparison { mask: &none, ..with }), Err(Error::NothingScored));
+    }
+
+    #[test]
+    fn the_standard_error_is_that_of_independent_rays() {
+        let picture = Image { width: 4, height: 1, data: vec![0.0, 0.5, 0.1, 0.9] };
+        let mask = Image { width: 4, height: 1, data: vec![true, true, true, false] };
+        // √(0.5 · 0.5 / 100) = 0.05 and √(0.1 · 0.9 / 100) = 0.03; the umbra is certain.
+        assert!((standard_error(&picture, &mask, 100) - 0.08 / 3.0).abs() < 1e-9);
+        assert_eq!(standard_error(&picture, &mask.map(|_| false), 100), 0.0);
+        // Many pictures of 16 independent rays at a visibility of 0.3 deviate by as much.
+        let mut state = 1_u64;
+        let mut hit = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            f64::from((state >> 40) as u32) / f64::from(1 << 24) < 0.3
+        };
+        let mean = |hit: &mut dyn FnMut() -> bool| (0..16).filter(|_| hit()).count() as f64 / 16.0;
+        let square = (0..4000).map(|_| (mean(&mut hit) - 0.3).powi(2)).sum::<f64>() / 4000.0;
+        let found = standard_error(&Image::filled(1, 1, 0.3), &Image::filled(1, 1, true), 16);
+        assert!((square.sqrt() / found - 1.0).abs() < 0.05, "{} and {found}", square.sqrt());
     }
 
     #[test]

@@ -112,7 +112,8 @@ fn the_numbers_are_those_of_the_script() {
             let theirs: serde_json::Value =
                 serde_json::from_str(&printed.expect("a picture that the script scores")).expect("JSON");
             let reference = &reference.visibility;
-            let comparison = Comparison { produced: &produced, reference, mask: &mask, hard: None, reach: None };
+            let comparison =
+                Comparison { produced: &produced, reference, mask: &mask, hard: None, reach: None, contacts: None };
             let ours = score(&comparison).expect("comparable pictures");
             for (key, ours) in [
                 ("mae", ours.mae),

@@ -61,7 +61,7 @@ impl Checked {
         let edge = discontinuities(&stored.depth, &stored.model.map(|&m| m.into()));
         let mask = Image::from_fn(edge.width, edge.height, |x, y| stored.mask[(x, y)] && !edge[(x, y)]);
         let (produced, reference) = (&truth.visibility, &stored.visibility);
-        let scores = score(&Comparison { produced, reference, mask: &mask, hard: None, reach: None })?;
+        let scores = score(&Comparison { produced, reference, mask: &mask, hard: None, reach: None, contacts: None })?;
         // The band beside discontinuities, too, should be the same for a tracer; its pixels are
         // listed with a mark.
         let (mut off, mut largest, mut off_in_band) = (Vec::new(), 0.0_f64, 0);

@@ -63,8 +63,14 @@ async fn line(gpu: &Gpu, stage: &mut Stage, info: &'static TechniqueInfo) -> Res
     let inside = renderer.technique(0).ok_or("no technique")?.inside();
     let (views, splits) = (inside.light_views(), inside.split_distances());
     let reach = map_reach(views, splits, &stage.scene.camera, &geometry.depth, &geometry.normal);
-    let comparison =
-        Comparison { produced: &produced, reference: &truth.visibility, mask: &mask, hard: None, reach: Some(&reach) };
+    let comparison = Comparison {
+        produced: &produced,
+        reference: &truth.visibility,
+        mask: &mask,
+        hard: None,
+        reach: Some(&reach),
+        contacts: None,
+    };
     let scores = score(&comparison).map_err(|e| text(&e))?;
     Ok(format!("picture {} {:.5} {:.3}", info.id, scores.mae, scores.interior_pct.unwrap_or(100.0)))
 }

@@ -16,7 +16,7 @@ use umbrage::{Answer, Gpu, Technique};
 use umbrage_core::Image;
 use umbrage_metrics::{
     Comparison, RadianceComparison, Scores, aliasing, around_borders, footprint_colors, heat, luminance, reach_of,
-    score, score_radiance, seam, texel_footprint,
+    score, score_radiance, seam, standard_error, texel_footprint,
 };
 use umbrage_reference::Geometry;
 use umbrage_renderer::{LightPass, Renderer};
@@ -129,7 +129,8 @@ impl Cell<'_> {
         let picture = renderer.visibility(0)?;
         let footprint = self.footprint(renderer);
         let scores = self.score(&picture, footprint.as_ref().map(reach_of).as_ref())?;
-        let scores = ScoresRecord { seam: self.seam(&picture, renderer)?, ..scores.into() };
+        let (seam, reference_error) = (self.seam(&picture, renderer)?, self.standard_error());
+        let scores = ScoresRecord { seam, reference_error, ..scores.into() };
         Ok(Found::Visibility { scores, picture, footprint })
     }
 
@@ -175,6 +176,7 @@ impl Cell<'_> {
             seconds: *seconds,
             scored_pixels: mask.data.iter().filter(|m| **m).count(),
             hard_mae: hard.as_ref().and_then(|hard| self.score(hard, None).ok()).map(|s| s.mae),
+            standard_error: self.standard_error(),
             pictures: shown,
         })
     }
@@ -189,7 +191,14 @@ impl Cell<'_> {
     /// Errors of a visibility picture of this light.
     fn score(&self, produced: &Image<f32>, reach: Option<&Image<f32>>) -> Result<Scores, Error> {
         let Truth { visibility, mask, hard, .. } = self.truth;
-        Ok(score(&Comparison { produced, reference: visibility, mask, hard: hard.as_ref(), reach })?)
+        let contacts = Some(self.tracing.contacts()).filter(|contacts| contacts.size() == mask.size());
+        Ok(score(&Comparison { produced, reference: visibility, mask, hard: hard.as_ref(), reach, contacts })?)
+    }
+
+    /// What the truth's own randomness is at most, where it is known.
+    fn standard_error(&self) -> Option<f64> {
+        let Truth { visibility, mask, samples, .. } = self.truth;
+        samples.map(|samples| if samples == 1 { 0.0 } else { standard_error(visibility, mask, samples) })
     }
 
     /// For techniques with maps: how large their texels are on the screen.

@@ -49,7 +49,7 @@ const fn cost(
 }
 
 /// All of them, errors first.
-pub const COLUMNS: [Column; 20] = [
+pub const COLUMNS: [Column; 26] = [
     score("mae", Some("less"), 4, true, "Mean absolute error of visibility over the scored pixels, 0 to 1."),
     score("rmse", Some("less"), 4, false, "Root of the mean squared error: large errors weigh more."),
     score("p99", Some("less"), 3, false, "99 of 100 scored pixels are off by no more than this."),
@@ -78,6 +78,34 @@ pub const COLUMNS: [Column; 20] = [
         true,
         "Error as a share of that of a perfect hard shadow: 1 is no better than hard, 0 is the truth. Soft lights only.",
     ),
+    score(
+        "noise",
+        Some("less"),
+        4,
+        true,
+        "Grain: standard deviation of what changes from pixel to pixel in the error of smooth penumbras.",
+    ),
+    score("speckles", Some("less"), 0, true, "Single pixels that differ from all around them, where the reference has none."),
+    Column {
+        name: "edge px",
+        help: "Half of the points of shadow outlines (visibility one half) are no farther from the reference's, pixels.",
+        ..score("edge_offset_p50", Some("less"), 2, false, "")
+    },
+    Column {
+        name: "edge 99 %",
+        help: "99 of 100 points of shadow outlines are no farther from the reference's, pixels; 32 is the most.",
+        ..score("edge_offset_p99", Some("less"), 2, true, "")
+    },
+    Column {
+        name: "contact px",
+        help: "Mean width of the light between casters and the shadows that should touch them, pixels.",
+        ..score("contact_gap", Some("less"), 2, true, "")
+    },
+    Column {
+        name: "± reference",
+        help: "What the reference's own randomness is at most: no smaller difference of errors says anything.",
+        ..score("reference_error", None, 5, false, "")
+    },
     score(
         "seam",
         Some("less"),

@@ -1,5 +1,5 @@
-//! What changes at fixed points of the scene while the camera moves: in each technique, and in the
-//! truth.
+//! What changes at fixed points of the scene while the camera or the light moves: in each technique,
+//! and in the truth.
 
 use crate::{error::Error, source::Source};
 use umbrage_core::{Camera, Image, Light, glam::Vec3};
@@ -13,7 +13,6 @@ const SAME_DEPTH: f64 = 1e-3;
 /// Follows the points of one light's scene from frame to frame.
 pub(crate) struct Follower<'a> {
     source: &'a Source,
-    light: &'a Light,
     tracer: &'a Tracer,
     /// Rays for each point of a soft light.
     samples: u32,
@@ -26,33 +25,39 @@ pub(crate) struct Follower<'a> {
 /// A frame, and the visibility that each technique gave it; `None` where it has failed.
 struct Seen {
     camera: Camera,
+    light: Light,
     frame: Frame,
     visibility: Vec<Option<Image<f32>>>,
 }
 
 impl<'a> Follower<'a> {
-    /// For this many techniques on `light`.
+    /// For this many techniques.
     pub(crate) fn new(
         source: &'a Source,
-        light: &'a Light,
         tracer: &'a Tracer,
         samples: u32,
         techniques: usize,
     ) -> Self {
         let techniques = vec![Flicker::default(); techniques];
-        Self { source, light, tracer, samples, last: None, reference: Flicker::default(), techniques }
+        Self { source, tracer, samples, last: None, reference: Flicker::default(), techniques }
     }
 
-    /// Looks at the frame that `renderers`, one a technique, have just drawn of the same camera.
+    /// Looks at the frame that `renderers`, one a technique, have just drawn of the same camera and
+    /// light.
     ///
     /// # Errors
     /// What reading back gives.
-    pub(crate) fn frame(&mut self, camera: &Camera, renderers: &[Option<&Renderer>]) -> Result<(), Error> {
+    pub(crate) fn frame(
+        &mut self,
+        camera: &Camera,
+        light: &Light,
+        renderers: &[Option<&Renderer>],
+    ) -> Result<(), Error> {
         let Some(any) = renderers.iter().flatten().next() else { return Ok(()) };
         let visibility = |renderer: &Option<&Renderer>| renderer.map(|r| r.visibility(0)).transpose();
         let frame = Frame::new(camera.clone(), any.depth(camera)?, any.normal()?.map(|n| Vec3::from(*n)));
         let visibility = renderers.iter().map(visibility).collect::<Result<_, _>>()?;
-        let seen = Seen { camera: camera.clone(), frame, visibility };
+        let seen = Seen { camera: camera.clone(), light: light.clone(), frame, visibility };
         if let Some(last) = self.last.take() {
             self.compare(&last, &seen);
         }
@@ -62,13 +67,14 @@ impl<'a> Follower<'a> {
 
     fn compare(&mut self, last: &Seen, seen: &Seen) {
         let mut points = fixed_points(&last.frame, &seen.frame);
-        let before = self.truth(last, points.iter().map(|point| point.before));
-        let after = self.truth(seen, points.iter().map(|point| point.after));
-        points.retain(|point: &FixedPoint| before.counts[point.before] && after.counts[point.after]);
-        self.reference.add(&points, &before.visibility, &after.visibility);
+        let before_truth = self.truth(last, points.iter().map(|point| point.before));
+        let after_truth = self.truth(seen, points.iter().map(|point| point.after));
+        points.retain(|point: &FixedPoint| before_truth.counts[point.before] && after_truth.counts[point.after]);
+        self.reference.add(&points, &before_truth.visibility, &after_truth.visibility);
         for (number, flicker) in self.techniques.iter_mut().enumerate() {
             if let (Some(before), Some(after)) = (&last.visibility[number], &seen.visibility[number]) {
-                flicker.add(&points, before, after);
+                let truth = [&before_truth.visibility, &after_truth.visibility];
+                flicker.add_beside(&points, [before, after], truth);
             }
         }
     }
@@ -81,7 +87,7 @@ impl<'a> Follower<'a> {
         let geometry = self.tracer.geometry_where(&seen.camera, &wanted);
         let options = Options { samples: self.samples, same_points: true, ..Options::default() };
         let textures = &self.source.scene.textures;
-        let traced = self.tracer.visibility(&geometry, self.light, textures, &options, &|_, _| ());
+        let traced = self.tracer.visibility(&geometry, &seen.light, textures, &options, &|_, _| ());
         let counts = Image::from_fn(width, height, |x, y| {
             let traced_depth = f64::from(geometry.depth[(x, y)]);
             let is_same = |depth: f64| (depth - traced_depth).abs() <= SAME_DEPTH * depth;
@@ -92,7 +98,7 @@ impl<'a> Follower<'a> {
 
     /// Mean change of the truth, how many changes it is the mean of, and that of each technique.
     pub(crate) fn found(&self) -> Found {
-        let techniques = self.techniques.iter().map(Flicker::mean).collect();
+        let techniques = self.techniques.iter().map(|flicker| (flicker.mean(), flicker.mean_off())).collect();
         Found { reference: self.reference.mean(), points: self.reference.points(), techniques }
     }
 }
@@ -101,7 +107,8 @@ impl<'a> Follower<'a> {
 pub(crate) struct Found {
     pub reference: Option<f64>,
     pub points: usize,
-    pub techniques: Vec<Option<f64>>,
+    /// Of each the mean change, and how far changes are off those of the truth.
+    pub techniques: Vec<(Option<f64>, Option<f64>)>,
 }
 
 /// The truth about some pixels.

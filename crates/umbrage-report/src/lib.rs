@@ -53,6 +53,7 @@ not_in_browsers! {
     mod sweep;
     mod table;
     mod truth;
+    mod way;
 
     pub use bench::{Bench, BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene, BenchTraffic};
     pub use column::{COLUMNS, Column, RADIANCE_COLUMNS};
@@ -72,6 +73,7 @@ not_in_browsers! {
     };
     pub use table::tables;
     pub use truth::{Tracing, Truth};
+    pub use way::Way;
 
     /// Indented JSON with a line end. Plain data with text keys always has a JSON form.
     fn json(data: &impl serde::Serialize) -> String {

@@ -73,6 +73,10 @@ pub struct ReferenceRecord {
     /// Mean absolute error of the perfect hard shadow, the unit of `vs_hard`; null for hard lights.
     #[serde(serialize_with = "maybe_six")]
     pub hard_mae: Option<f64>,
+    /// What its own randomness is at most, as a mean over the scored pixels, see
+    /// [`umbrage_metrics::standard_error`]; null for a stored picture.
+    #[serde(serialize_with = "maybe_six")]
+    pub standard_error: Option<f64>,
     /// Pictures by kind, relative to the report: `color`, `visibility`, and `hard` for soft lights.
     pub pictures: BTreeMap<&'static str, String>,
 }
@@ -167,6 +171,26 @@ pub struct ScoresRecord {
     /// Share of the error of a perfect hard shadow; null for hard lights.
     #[serde(serialize_with = "maybe_six")]
     pub vs_hard: Option<f64>,
+    /// Grain in smooth penumbras, see [`Scores::noise`]; null where there is none.
+    #[serde(serialize_with = "maybe_six")]
+    pub noise: Option<f64>,
+    /// Single wrong pixels, see [`Scores::speckles`].
+    pub speckles: usize,
+    /// How far outlines of shadows are off, pixels: half of their points are no farther; null
+    /// where there is no outline.
+    #[serde(serialize_with = "maybe_six")]
+    pub edge_offset_p50: Option<f64>,
+    /// The same of 99 in 100 points.
+    #[serde(serialize_with = "maybe_six")]
+    pub edge_offset_p99: Option<f64>,
+    /// Width of the light between casters and their shadows, pixels, see [`Scores::contact_gap`];
+    /// null where nothing dark touches.
+    #[serde(serialize_with = "maybe_six")]
+    pub contact_gap: Option<f64>,
+    /// What the reference's own randomness is at most, see [`umbrage_metrics::standard_error`];
+    /// null for stored references, whose rays are not known.
+    #[serde(serialize_with = "maybe_six")]
+    pub reference_error: Option<f64>,
     /// How many times as far off edges are around borders between maps, see
     /// [`umbrage_metrics::seam`]; null without borders.
     #[serde(serialize_with = "maybe_six")]
@@ -190,6 +214,12 @@ impl From<Scores> for ScoresRecord {
             leak: s.leak,
             false_shadow: s.false_shadow,
             vs_hard: s.vs_hard,
+            noise: s.noise,
+            speckles: s.speckles,
+            edge_offset_p50: s.edge_offset.map(|offset| offset.p50),
+            edge_offset_p99: s.edge_offset.map(|offset| offset.p99),
+            contact_gap: s.contact_gap,
+            reference_error: None,
             seam: None,
             scored_pixels: s.scored_pixels,
             not_finite: s.not_finite,

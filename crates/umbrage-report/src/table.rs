@@ -16,8 +16,14 @@ pub fn tables(report: &Report) -> String {
         for light in &scene.lights {
             let kind = if light.soft { "soft" } else { "hard" };
             text += &format!(
-                "\n{}, light {} ({}, {kind}), {}×{}; reference: {}\n",
-                scene.name, light.light, light.kind, scene.width, scene.height, light.reference.source
+                "\n{}, light {} ({}, {kind}), {}×{}; reference: {}{}\n",
+                scene.name,
+                light.light,
+                light.kind,
+                scene.width,
+                scene.height,
+                light.reference.source,
+                light.reference.standard_error.map_or(String::new(), |error| format!(" (± {error:.5})")),
             );
             text += &light_table(light).to_string();
             text += "\n";
@@ -114,6 +120,9 @@ mod tests {
             "shadow-map size=512",
             "0.0123",
             "98.50",
+            "(± 0.00050)",
+            "speckles",
+            "0.0125",
             "not for line lights",
             "volume size=512: the graphics device was lost",
             "4.00",

@@ -5,7 +5,7 @@ use crate::{error::Error, progress::Progress, source::Source};
 use std::{path::Path, time::Instant};
 use umbrage_core::{Image, Light, Texture};
 use umbrage_io::stored::StoredReference;
-use umbrage_metrics::discontinuities;
+use umbrage_metrics::{contacts, discontinuities};
 use umbrage_reference::{Geometry, Kept, Options, SceneKey, Traced, Tracer};
 
 /// A scene ready to be traced at one size.
@@ -14,6 +14,7 @@ pub struct Tracing {
     /// What every pixel shows.
     pub geometry: Geometry,
     edges: Image<bool>,
+    contacts: Image<bool>,
     kept: Option<(Kept, SceneKey)>,
 }
 
@@ -43,7 +44,13 @@ impl Tracing {
         let tracer = Tracer::new(&source.scene);
         let geometry = tracer.geometry(&source.scene.camera, width, height);
         let edges = discontinuities(&geometry.depth, &geometry.model);
-        Self { tracer, geometry, edges, kept: None }
+        let contacts = contacts(&source.scene.camera, &geometry.depth, &geometry.normal);
+        Self { tracer, geometry, edges, contacts, kept: None }
+    }
+
+    /// Where surfaces touch, see [`contacts`](umbrage_metrics::contacts()).
+    pub(crate) fn contacts(&self) -> &Image<bool> {
+        &self.contacts
     }
 
     /// Keeps what is traced of `source` in `folder`, and traces nothing that is there already.

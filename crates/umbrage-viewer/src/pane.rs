@@ -351,6 +351,7 @@ impl Pane {
             mask: &truth.scored,
             hard: None,
             reach: None,
+            contacts: None,
         };
         self.scores = score(&comparison).ok();
     }

@@ -32,7 +32,7 @@ fn some_rows_of_every_stored_picture() {
 
             mask.data.iter_mut().zip(&edge.data).for_each(|(scored, edge)| *scored &= !edge);
             let (produced, reference) = (&truth.visibility, &stored.visibility);
-            let comparison = Comparison { produced, reference, mask: &mask, hard: None, reach: None };
+            let comparison = Comparison { produced, reference, mask: &mask, hard: None, reach: None, contacts: None };
             let scores = score(&comparison).expect("comparable pictures");
             let most = if light.shape.kind().is_soft() { 1e-3 } else { 2e-4 };
             let good = scores.mae <= most && scores.correct_pct >= 99.8;

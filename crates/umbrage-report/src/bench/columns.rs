@@ -37,7 +37,7 @@ const fn shown(name: &'static str, field: Field, heading: &'static str, text: Fi
 }
 
 /// Of CSV, in its order.
-pub(crate) const COLUMNS: [Column; 31] = [
+pub(crate) const COLUMNS: [Column; 32] = [
     of("scene", |row| row.scene.source.clone()),
     of("light", |row| row.light.light.map_or(String::new(), |number| number.to_string())),
     of("kind", |row| row.light.kind.into()),
@@ -80,6 +80,12 @@ pub(crate) const COLUMNS: [Column; 31] = [
         |row| row.result.flicker.map_or("–".into(), |v| format!("{v:.5}")),
     ),
     shown("flicker_ratio", |row| maybe(row.result.flicker_ratio), "× truth", |row| short(row.result.flicker_ratio)),
+    shown(
+        "change_error",
+        |row| maybe(row.result.change_error),
+        "change error",
+        |row| row.result.change_error.map_or("–".into(), |v| format!("{v:.5}")),
+    ),
     shown("fragments", fragments, "fragments", fragments),
     shown("bytes_moved", |row| moved(row).map_or(String::new(), |bytes| bytes.to_string()), "MB moved", moved_shown),
     of("traffic", traffic),
@@ -103,8 +109,8 @@ pub(crate) const SHOWN: [&str; 10] = [
     "bytes",
 ];
 
-/// More of them, where the camera was on a path.
-pub(crate) const SHOWN_ON_PATH: [&str; 2] = ["flicker", "flicker_ratio"];
+/// More of them, where the camera or the light was on a path.
+pub(crate) const SHOWN_ON_PATH: [&str; 3] = ["flicker", "flicker_ratio", "change_error"];
 
 /// More of them, where fragments were counted.
 pub(crate) const SHOWN_WITH_BYTES: [&str; 2] = ["fragments", "bytes_moved"];

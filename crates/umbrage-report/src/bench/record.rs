@@ -5,11 +5,11 @@ use crate::{
     made::Made,
     measure::Frames,
     motion::Moving,
-    path::CameraPath,
     record::{as_text, in_order},
     round::maybe_six,
     spread::Spread,
     status::Status,
+    way::Way,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -30,8 +30,8 @@ pub struct BenchReport {
     pub frames: u32,
     /// What moved from frame to frame.
     pub moving: Moving,
-    /// Where the camera went; null where it was not on one of the paths.
-    pub path: Option<CameraPath>,
+    /// Where the camera or the light went; null where neither was on one of the paths.
+    pub path: Option<Way>,
     /// Instances that were removed and inserted again in every frame.
     pub churn: u32,
     /// One for each scene, as given.
@@ -63,11 +63,11 @@ pub struct BenchLight {
     pub kind: &'static str,
     /// The numbers of the lights that were measured together; null for one alone.
     pub together: Option<Vec<usize>>,
-    /// Flicker of the truth, see [`BenchResult::flicker`]: what the picture's own grid adds. Null
-    /// where the camera was on no path.
+    /// Flicker of the truth, see [`BenchResult::flicker`]: what the picture's own grid adds, or how
+    /// much the light's motion changes. Null without a path.
     #[serde(serialize_with = "maybe_six")]
     pub flicker_reference: Option<f64>,
-    /// How many changes it is the mean of; null where the camera was on no path.
+    /// How many changes it is the mean of; null without a path.
     pub flicker_points: Option<usize>,
     /// Baselines first, then the techniques asked for.
     pub results: Vec<BenchResult>,
@@ -95,12 +95,15 @@ pub struct BenchResult {
     #[serde(serialize_with = "maybe_six")]
     pub vs_bare_minimum: Option<f64>,
     /// Mean absolute change of visibility from frame to frame at fixed points of the scene, 0 to 1,
-    /// see [`umbrage_metrics::Flicker`]. Null where the camera was on no path.
+    /// see [`umbrage_metrics::Flicker`]. Null without a path.
     #[serde(serialize_with = "maybe_six")]
     pub flicker: Option<f64>,
     /// The same over that of the truth, at the same points: 1 is steady. Null where that is 0, too.
     #[serde(serialize_with = "maybe_six")]
     pub flicker_ratio: Option<f64>,
+    /// Mean of |change − the truth's change| at the same points, 0 to 1. Null without a path.
+    #[serde(serialize_with = "maybe_six")]
+    pub change_error: Option<f64>,
 }
 
 /// Times, milliseconds, and what was drawn.
@@ -167,8 +170,9 @@ impl BenchLight {
     pub(crate) fn set_flicker(&mut self, found: &Found) {
         (self.flicker_reference, self.flicker_points) = (found.reference, Some(found.points));
         let baselines = self.results.len().saturating_sub(found.techniques.len());
-        for (result, flicker) in self.results[baselines..].iter_mut().zip(&found.techniques) {
+        for (result, (flicker, off)) in self.results[baselines..].iter_mut().zip(&found.techniques) {
             result.flicker = flicker.filter(|_| result.status == Status::Ok);
+            result.change_error = off.filter(|_| result.status == Status::Ok);
             let reference = found.reference.filter(|reference| *reference > 0.0);
             result.flicker_ratio = result.flicker.zip(reference).map(|(flicker, reference)| flicker / reference);
         }

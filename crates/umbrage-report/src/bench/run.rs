@@ -14,14 +14,14 @@ use crate::{
     maps::Maps,
     measure::Frames,
     motion::{Motion, Moving},
-    path::CameraPath,
     progress::Progress,
     record::SCHEMA,
     source::Source,
     stage::check_choices,
+    way::Way,
 };
 use umbrage::{Gpu, Recorder, Technique, baseline};
-use umbrage_core::LightKind;
+use umbrage_core::{Light, LightKind};
 use umbrage_reference::Tracer;
 use umbrage_renderer::{LightPass, Renderer};
 
@@ -38,9 +38,9 @@ pub struct Bench {
     pub frames: u32,
     /// What moves from frame to frame.
     pub moving: Moving,
-    /// Where the camera goes; what flickers on the way is measured then, too. Lights and casters
-    /// stand still.
-    pub path: Option<CameraPath>,
+    /// Where the camera or the light goes; what flickers on the way is measured then, too. All else
+    /// stands still.
+    pub path: Option<Way>,
     /// Rays for each point of a soft light's reference that flicker is set against.
     pub samples: u32,
     /// All lights of a scene in the same frame, each with a technique of its own, where it is
@@ -74,7 +74,7 @@ impl Bench {
         check_choices(&self.choices, gpu)?;
         self.check_path()?;
         for (source, lights) in &self.scenes {
-            lights.iter().try_for_each(|&light| source.light(light).map(|_| ()))?;
+            lights.iter().try_for_each(|&light| source.light(light).and_then(|found| self.check_way(light, found)))?;
         }
         let mut scenes = Vec::new();
         for (source, lights) in &self.scenes {
@@ -98,13 +98,22 @@ impl Bench {
         Ok(BenchReport { schema: SCHEMA, made, width, height, frames, moving, path, churn, scenes })
     }
 
+    fn check_way(&self, number: usize, light: &Light) -> Result<(), Error> {
+        if self.path.is_none_or(|way| way.moves(light)) {
+            return Ok(());
+        }
+        let kind = light.shape.kind().name();
+        let remedy = "choose a directional light or a sun with --light, or take --path light";
+        Err(Error::Name(format!("--path sun: light {number} is a {kind} light, whose direction nothing turns; {remedy}")))
+    }
+
     /// On a path what is fixed in the scene has to stand still, and one technique alone makes the
     /// picture.
     fn check_path(&self) -> Result<(), Error> {
         let wrong = match (self.path, self.frames) {
             (None, _) => return Ok(()),
             _ if self.moving != Moving::None => {
-                "no light, caster or other camera moves along a path; leave --moving out"
+                "nothing else moves along a path; leave --moving out"
             }
             _ if self.churn > 0 => "no instance comes or goes along a path; leave --churn out",
             _ if self.together => "flicker is that of one light at a time; leave --lights-together out",
@@ -133,23 +142,26 @@ impl Bench {
         let mut counting = self.bytes.then(|| Recorder::counting(gpu)).transpose()?;
         progress.begin(&format!("{}, {}", source.scene.name, record.title()), self.frames.into());
         let mut runners = self.runners(gpu, source, lights);
-        let followed = tracer.zip(lights.first().map(|&light| &source.scene.lights[light]));
-        let mut follower =
-            followed.map(|(tracer, light)| Follower::new(source, light, tracer, self.samples, self.choices.len()));
+        let followed = lights.first().map(|&light| &source.scene.lights[light]);
+        let mut follower = tracer.map(|tracer| Follower::new(source, tracer, self.samples, self.choices.len()));
         for round in 0..WARM_UP + self.frames {
             let counted = round.saturating_sub(WARM_UP);
             let on_path = self.path.map(|path| path.camera(&source.scene.camera, counted, self.size.1));
             let camera = on_path.unwrap_or_else(|| motion.camera(&source.scene.camera, round));
+            let light = self.path.zip(followed).map(|(way, light)| way.light(light, &source.scene.camera, counted));
             for runner in &mut runners {
                 if let Ok(renderer) = &mut runner.renderer {
                     motion.apply(renderer, &source.scene, lights, round)?;
+                    if let (Some(light), Some(moved)) = (&light, renderer.light_mut(0)) {
+                        moved.clone_from(light);
+                    }
                 }
                 runner.churn()?;
                 runner.frame(gpu, &camera, round >= WARM_UP);
             }
-            if let Some(follower) = follower.as_mut().filter(|_| round >= WARM_UP) {
+            if let (Some(follower), Some(light)) = (follower.as_mut().filter(|_| round >= WARM_UP), &light) {
                 let techniques = runners.iter().filter(|runner| runner.choice.is_some());
-                follower.frame(&camera, &techniques.map(|r| r.renderer.as_ref().ok()).collect::<Vec<_>>())?;
+                follower.frame(&camera, light, &techniques.map(|r| r.renderer.as_ref().ok()).collect::<Vec<_>>())?;
             }
             progress.at(counted.into());
         }

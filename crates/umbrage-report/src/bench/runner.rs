@@ -135,6 +135,7 @@ impl Runner<'_> {
             cost,
             flicker: None,
             flicker_ratio: None,
+            change_error: None,
         }
     }
 }

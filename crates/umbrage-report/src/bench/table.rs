@@ -7,6 +7,7 @@ use crate::{
     },
     motion::Moving,
     table::plain,
+    way::Way,
 };
 use comfy_table::{Cell, Table};
 
@@ -20,7 +21,8 @@ impl BenchReport {
     pub fn tables(&self) -> String {
         let mut text = String::new();
         let moving = match (self.path, self.moving) {
-            (Some(path), _) => format!("the camera, path {}", path.name()),
+            (Some(Way::Camera(path)), _) => format!("the camera, path {}", path.name()),
+            (Some(way), _) => format!("the light, path {}", way.name()),
             (None, Moving::None) => "nothing, all drawn anew".into(),
             (None, Moving::Still) => "nothing".into(),
             (None, moving) => moving.name().into(),
@@ -48,7 +50,7 @@ impl BenchReport {
                  the same size and number with a one-tap look-up.\n";
         if self.path.is_some() {
             text += "flicker: mean change of visibility from frame to frame at fixed points of the scene; × truth: over that of \
-                     the reference.\n";
+                     the reference; change error: how far changes are off those of the reference.\n";
         }
         text
     }
@@ -114,6 +116,7 @@ mod tests {
             vs_bare_minimum: Some(1.25),
             flicker: Some(0.0021),
             flicker_ratio: Some(3.5),
+            change_error: Some(0.0017),
         };
         let made: Made = fixture().made;
         let results = vec![result("shadow-map", Some(cost), None), result("pcf", None, Some("lost, \"gone\""))];
@@ -144,7 +147,7 @@ mod tests {
         // The first field has a comma of its own.
         assert_eq!(lines[1].split(',').count(), lines[0].split(',').count() + 1, "{csv}");
         assert!(lines[1].starts_with("\"a,b.obj\",0,point,shadow-map,size=512,ok,,2,1,0.333333,"), "{csv}");
-        assert!(lines[1].ends_with(",1.25,0.0021,3.5,,,,edges=7;caps=2"), "{csv}");
+        assert!(lines[1].ends_with(",1.25,0.0021,3.5,0.0017,,,,edges=7;caps=2"), "{csv}");
         assert!(lines[2].contains("\"lost, \"\"gone\"\"\""), "{csv}");
     }
 
@@ -167,9 +170,9 @@ mod tests {
     #[test]
     fn flicker_has_columns_where_the_camera_was_on_a_path() {
         assert!(!report().tables().contains("× truth"));
-        let text = BenchReport { moving: Moving::None, path: Some(CameraPath::Strafe), ..report() }.tables();
-        for part in ["moving: the camera, path strafe", "× truth", "0.00210", "3.50", "0.00060, mean of 1234 changes"]
-        {
+        let text = BenchReport { moving: Moving::None, path: Some(Way::Camera(CameraPath::Strafe)), ..report() }.tables();
+        let parts = ["moving: the camera, path strafe", "× truth", "0.00210", "3.50", "0.00170", "0.00060, mean of 1234 changes"];
+        for part in parts {
             assert!(text.contains(part), "{part} is missing in\n{text}");
         }
     }

@@ -77,7 +77,8 @@ pub fn score_frame(renderer: &mut Renderer, scene: &Scene, light: usize, size: (
         &geometry.normal,
     );
     let reference = &truth.visibility;
-    score(&Comparison { produced: &produced, reference, mask: &mask, hard: None, reach: Some(&reach) }).unwrap()
+    score(&Comparison { produced: &produced, reference, mask: &mask, hard: None, reach: Some(&reach), contacts: None })
+        .unwrap()
 }
 
 /// What is seen and the truth about a light: traced once by all tests of this process, and its rays

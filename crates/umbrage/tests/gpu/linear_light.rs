@@ -105,7 +105,14 @@ fn two_maps_and_five_are_as_near_to_the_truth_as_they_have_to_be() {
             let mut renderer = renderer(&gpu, &scene, light, "linear-light", &set, size(&stored));
             let produced = visibility(&mut renderer, &scene);
             let (reference, mask) = (&stored.visibility, mask(&stored));
-            let compared = Comparison { produced: &produced, reference, mask: &mask, hard: Some(&hard), reach: None };
+            let compared = Comparison {
+                produced: &produced,
+                reference,
+                mask: &mask,
+                hard: Some(&hard),
+                reach: None,
+                contacts: None,
+            };
             let s = score(&compared).unwrap();
             println!("{name} samples={samples}: mae {:.5}, vs_hard {:.3}", s.mae, s.vs_hard.unwrap());
             assert!(s.vs_hard.unwrap() <= most, "{name} samples={samples}");

@@ -20,7 +20,8 @@ fn scores(mut renderer: Renderer, scene: &Scene, stored: &StoredReference, hard:
         &stored.normal.map(|n| (*n).into()),
     );
     let reference = &stored.visibility;
-    score(&Comparison { produced: &produced, reference, mask: &mask, hard, reach: Some(&reach) }).unwrap()
+    score(&Comparison { produced: &produced, reference, mask: &mask, hard, reach: Some(&reach), contacts: None })
+        .unwrap()
 }
 
 /// The pixels that are compared.

@@ -38,8 +38,14 @@ pub fn vs_hard(name: &str, light: usize, id: &str, set: &str) -> Option<(f64, f6
     let one = Options { samples: 1, ..Options::default() };
     let hard = tracer.visibility(&geometry, &scene.lights[light], &scene.textures, &one, &|_, _| ()).visibility;
     let reference = &stored.visibility;
-    let comparison =
-        Comparison { produced: &produced, reference, mask: &mask(&stored), hard: Some(&hard), reach: None };
+    let comparison = Comparison {
+        produced: &produced,
+        reference,
+        mask: &mask(&stored),
+        hard: Some(&hard),
+        reach: None,
+        contacts: None,
+    };
     let s = score(&comparison).unwrap();
     assert_eq!(s.not_finite, 0, "{name}");
     Some((s.vs_hard.unwrap_or(f64::INFINITY), s.interior_pct.unwrap_or(0.0)))

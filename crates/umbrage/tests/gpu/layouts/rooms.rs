@@ -126,6 +126,7 @@ impl Traced {
             &self.geometry.normal,
         );
         let (reference, mask) = (&self.truth.visibility, &self.mask);
-        score(&Comparison { produced: &produced, reference, mask, hard: None, reach: Some(&reach) }).unwrap()
+        score(&Comparison { produced: &produced, reference, mask, hard: None, reach: Some(&reach), contacts: None })
+            .unwrap()
     }
 }
