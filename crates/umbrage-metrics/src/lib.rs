@@ -3,10 +3,11 @@
 //! Pictures of visibility hold the share of a light that each pixel sees, 1 = fully lit. [`score`]
 //! compares one with a reference over the pixels of a mask; [`discontinuities`] finds the pixels
 //! that no mask should hold, since a rasteriser and a ray tracer may see different surfaces there;
-//! [`heat`] draws where the errors are, and [`contacts`] where shadows should touch their casters. [`Flicker`] tells what changes at fixed points of the scene
-//! while the camera moves, [`seam`] how much worse shadows are around the borders between maps, and
-//! [`aliasing`] how large the texels of maps are on the screen. [`color_scores`] is for finished
-//! pictures, [`score_radiance`] for those of radiance.
+//! [`heat`] draws where the errors are, and [`contacts`] where shadows should touch their casters.
+//! [`Flicker`] tells what changes at fixed points of the scene while the camera or the light moves,
+//! [`seam`] how much worse shadows are around the borders between maps, and [`aliasing`] how large
+//! the texels of maps are on the screen. [`color_scores`] is for finished pictures,
+//! [`score_radiance`] for those of radiance.
 
 mod color;
 mod contact;

@@ -195,7 +195,7 @@ impl Cell<'_> {
         Ok(score(&Comparison { produced, reference: visibility, mask, hard: hard.as_ref(), reach, contacts })?)
     }
 
-    /// What the truth's own randomness is at most, where it is known.
+    /// What the truth's own randomness is about, where it is known.
     fn standard_error(&self) -> Option<f64> {
         let Truth { visibility, mask, samples, .. } = self.truth;
         samples.map(|samples| if samples == 1 { 0.0 } else { standard_error(visibility, mask, samples) })

@@ -103,7 +103,7 @@ pub const COLUMNS: [Column; 26] = [
     },
     Column {
         name: "± reference",
-        help: "What the reference's own randomness is at most: no smaller difference of errors says anything.",
+        help: "What the reference's own randomness is about: a smaller difference of errors says nothing.",
         ..score("reference_error", None, 5, false, "")
     },
     score(

@@ -1,5 +1,5 @@
-//! What changes at fixed points of the scene while the camera or the light moves: in each technique,
-//! and in the truth.
+//! What changes at fixed points of the scene while the camera or the light moves: in each
+//! technique, and in the truth.
 
 use crate::{error::Error, source::Source};
 use umbrage_core::{Camera, Image, Light, glam::Vec3};

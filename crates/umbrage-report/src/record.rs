@@ -73,7 +73,7 @@ pub struct ReferenceRecord {
     /// Mean absolute error of the perfect hard shadow, the unit of `vs_hard`; null for hard lights.
     #[serde(serialize_with = "maybe_six")]
     pub hard_mae: Option<f64>,
-    /// What its own randomness is at most, as a mean over the scored pixels, see
+    /// What its own randomness is about, as a mean over the scored pixels, see
     /// [`umbrage_metrics::standard_error`]; null for a stored picture.
     #[serde(serialize_with = "maybe_six")]
     pub standard_error: Option<f64>,
@@ -187,7 +187,7 @@ pub struct ScoresRecord {
     /// null where nothing dark touches.
     #[serde(serialize_with = "maybe_six")]
     pub contact_gap: Option<f64>,
-    /// What the reference's own randomness is at most, see [`umbrage_metrics::standard_error`];
+    /// What the reference's own randomness is about, see [`umbrage_metrics::standard_error`];
     /// null for stored references, whose rays are not known.
     #[serde(serialize_with = "maybe_six")]
     pub reference_error: Option<f64>,
