@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use ash::{Device, vk};
 use naga::ShaderStage;
 use std::ffi::CString;
-use umbrage::{PipelineKind, PipelineParts, StageParts};
+use umbrage::{PipelineKind, PipelineParts, RenderParts, StageParts};
 
 /// The shaders of a pipeline by stage, each under file and entry point.
 pub type Names = Vec<(vk::ShaderStageFlags, String)>;
@@ -16,7 +16,7 @@ pub fn create(device: &Device, parts: &PipelineParts, checks: Checks) -> Result<
     let (sets, layout) = layout(device, parts)?;
     let made = match &parts.kind {
         PipelineKind::Compute(stage) => compute(device, layout, stage, checks),
-        PipelineKind::Render { .. } => render(device, layout, &parts.kind, checks),
+        PipelineKind::Render(parts) => render(device, layout, parts, checks),
     };
     // SAFETY: a pipeline that is made needs its layout no longer.
     unsafe {
@@ -115,12 +115,10 @@ fn compute(
 fn render(
     device: &Device,
     layout: vk::PipelineLayout,
-    kind: &PipelineKind,
+    parts: &RenderParts,
     checks: Checks,
 ) -> Result<(vk::Pipeline, Names)> {
-    let PipelineKind::Render { vertex, buffers, primitive, depth_stencil, multisample, fragment } = kind else {
-        bail!("a pipeline for compute passes");
-    };
+    let RenderParts { vertex, buffers, primitive, depth_stencil, multisample, fragment } = parts;
     let mut stages = vec![Stage::new(device, ShaderStage::Vertex, vertex, checks)?];
     let targets = fragment.as_ref().map_or(&[][..], |(_, targets)| targets);
     if let Some((parts, _)) = fragment {

@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::snapping;
 pub use adapter::AdapterSummary;
 pub(crate) use arrival::arrival;
-pub use pipelines::{PipelineKind, PipelineParts, StageParts};
+pub use pipelines::{PipelineKind, PipelineParts, RenderParts, StageParts};
 use shared::Shared;
 use std::pin::pin;
 use std::sync::{Arc, OnceLock};

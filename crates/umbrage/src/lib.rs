@@ -89,7 +89,7 @@ pub use casters::{
 };
 pub use deliver::{Coarse, Deliver, Upsample};
 pub use error::{Error, nearest};
-pub use gpu::{AdapterSummary, Gpu, PipelineKind, PipelineParts, StageParts};
+pub use gpu::{AdapterSummary, Gpu, PipelineKind, PipelineParts, RenderParts, StageParts};
 pub use inline::{Binding, Followed, Inline, Lent, Resource};
 pub use light_samples::light_samples;
 pub use passes::{Kept, Owner, Pass, PassFragments, PassTime, Passes, Recorder};

@@ -19,20 +19,24 @@ pub enum PipelineKind {
     /// Compute passes.
     Compute(StageParts),
     /// Render passes.
-    Render {
-        /// The vertex shader.
-        vertex: StageParts,
-        /// The vertex buffers: bytes from one element to the next, what a step is, and attributes.
-        buffers: Vec<Option<(u64, wgpu::VertexStepMode, Vec<wgpu::VertexAttribute>)>>,
-        /// How vertices become triangles.
-        primitive: wgpu::PrimitiveState,
-        /// Depth and stencil, where there are any.
-        depth_stencil: Option<wgpu::DepthStencilState>,
-        /// Samples of a pixel.
-        multisample: wgpu::MultisampleState,
-        /// The fragment shader and its targets, where there is one.
-        fragment: Option<(StageParts, Vec<Option<wgpu::ColorTargetState>>)>,
-    },
+    Render(Box<RenderParts>),
+}
+
+/// A pipeline for render passes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RenderParts {
+    /// The vertex shader.
+    pub vertex: StageParts,
+    /// The vertex buffers: bytes from one element to the next, what a step is, and attributes.
+    pub buffers: Vec<Option<(u64, wgpu::VertexStepMode, Vec<wgpu::VertexAttribute>)>>,
+    /// How vertices become triangles.
+    pub primitive: wgpu::PrimitiveState,
+    /// Depth and stencil, where there are any.
+    pub depth_stencil: Option<wgpu::DepthStencilState>,
+    /// Samples of a pixel.
+    pub multisample: wgpu::MultisampleState,
+    /// The fragment shader and its targets, where there is one.
+    pub fragment: Option<(StageParts, Vec<Option<wgpu::ColorTargetState>>)>,
 }
 
 /// A shader in a pipeline.
@@ -64,7 +68,7 @@ impl Gpu {
                 Some((stage, targets)) => Some((shared.stage_parts(&stage)?, targets)),
                 None => None,
             };
-            let kind = PipelineKind::Render {
+            let parts = RenderParts {
                 vertex: shared.stage_parts(&made.vertex)?,
                 buffers: made.buffers,
                 primitive: made.primitive,
@@ -72,6 +76,7 @@ impl Gpu {
                 multisample: made.multisample,
                 fragment,
             };
+            let kind = PipelineKind::Render(Box::new(parts));
             Some(PipelineParts { groups: shared.groups_of(made.layout.as_ref()?)?, kind })
         });
         compute.chain(render).collect()
