@@ -61,7 +61,7 @@ impl Gpu {
         let shared = &*self.shared;
         let compute = shared.compute.keys().into_iter().filter_map(|(layout, stage)| {
             let kind = PipelineKind::Compute(shared.stage_parts(&stage)?);
-            Some(PipelineParts { groups: shared.groups_of(layout.as_ref()?)?, kind })
+            Some(PipelineParts { groups: shared.groups_of(layout.as_ref())?, kind })
         });
         let render = shared.render.keys().into_iter().filter_map(|made| {
             let fragment = match made.fragment {
@@ -77,7 +77,7 @@ impl Gpu {
                 fragment,
             };
             let kind = PipelineKind::Render(Box::new(parts));
-            Some(PipelineParts { groups: shared.groups_of(made.layout.as_ref()?)?, kind })
+            Some(PipelineParts { groups: shared.groups_of(made.layout.as_ref())?, kind })
         });
         compute.chain(render).collect()
     }
@@ -91,7 +91,9 @@ impl Shared {
         Some(StageParts { name, text, entry: stage.entry.clone(), constants, zeroes: stage.zeroes })
     }
 
-    fn groups_of(&self, layout: &wgpu::PipelineLayout) -> Option<Vec<Option<Vec<wgpu::BindGroupLayoutEntry>>>> {
+    fn groups_of(&self, layout: Option<&wgpu::PipelineLayout>) -> Option<Vec<Option<Vec<wgpu::BindGroupLayoutEntry>>>> {
+        // Pipelines that bind nothing have none.
+        let Some(layout) = layout else { return Some(Vec::new()) };
         let groups = self.pipeline_layouts.key_of(layout)?;
         let entries = |group: Option<wgpu::BindGroupLayout>| match group {
             Some(group) => self.bind_group_layouts.key_of(&group).map(Some),
