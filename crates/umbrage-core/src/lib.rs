@@ -18,6 +18,7 @@ pub mod camera;
 pub mod columns;
 mod convex;
 pub mod coverage;
+pub mod environment;
 pub mod facets;
 pub mod frustum;
 pub mod harmonics;
@@ -49,6 +50,7 @@ mod weld;
 
 pub use bounds::Bounds;
 pub use camera::{Camera, CameraView, Parallel};
+pub use environment::{Environment, Sky};
 pub use frustum::Frustum;
 pub use image::Image;
 pub use light::{Light, LightKind, LightKinds, LightShape};

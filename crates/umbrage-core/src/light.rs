@@ -1,5 +1,6 @@
 //! Lights as data: every kind that the scene file knows.
 
+use crate::environment::Environment;
 use glam::{DMat3, DVec2, DVec3, DVec4, Vec3};
 
 /// One light: its shape and place, and what it gives off.
@@ -107,6 +108,9 @@ pub enum LightShape {
         /// The other end.
         to: DVec3,
     },
+    /// The sky all around. It is no `[[light]]` but the scene's [`crate::Scene::environment`], and
+    /// its answer is radiance.
+    Environment(Environment),
 }
 
 /// The kinds of light, without their data.
@@ -130,10 +134,13 @@ pub enum LightKind {
     Rect,
     /// See [`LightShape::Line`].
     Line,
+    /// See [`LightShape::Environment`].
+    Environment,
 }
 
 impl LightKind {
-    /// All of them, in the order of the scene file's table.
+    /// All that a `[[light]]` can be, in the order of the scene file's table: those that a surface
+    /// sees a share of. [`Self::Environment`] is not among them.
     pub const ALL: [Self; 9] = [
         Self::Point,
         Self::Spot,
@@ -158,6 +165,7 @@ impl LightKind {
             Self::Disc => "disc",
             Self::Rect => "rect",
             Self::Line => "line",
+            Self::Environment => "environment",
         }
     }
 
@@ -172,7 +180,7 @@ impl LightKind {
 pub struct LightKinds(u16);
 
 impl LightKinds {
-    /// Every kind.
+    /// Every kind that a `[[light]]` can be, see [`LightKind::ALL`].
     pub const ALL: Self = Self::of(&LightKind::ALL);
     /// Those without extent.
     pub const HARD: Self = Self::of(&[LightKind::Point, LightKind::Spot, LightKind::Directional]);
@@ -192,9 +200,9 @@ impl LightKinds {
         self.0 >> kind as u16 & 1 == 1
     }
 
-    /// The kinds in the set, in the order of [`LightKind::ALL`].
+    /// The kinds in the set, in the order of [`LightKind::ALL`], the environment last.
     pub fn iter(self) -> impl Iterator<Item = LightKind> {
-        LightKind::ALL.into_iter().filter(move |k| self.contains(*k))
+        LightKind::ALL.into_iter().chain([LightKind::Environment]).filter(move |k| self.contains(*k))
     }
 }
 
@@ -212,14 +220,16 @@ impl LightShape {
             Self::Disc { .. } => LightKind::Disc,
             Self::Rect { .. } => LightKind::Rect,
             Self::Line { .. } => LightKind::Line,
+            Self::Environment(_) => LightKind::Environment,
         }
     }
 
     /// The light's centre in homogeneous coordinates: a point with w = 1, or with w = 0 the
-    /// direction **to** a directional light.
+    /// direction **to** a directional light; for the environment, up.
     pub fn center(&self) -> DVec4 {
         match *self {
             Self::Directional { direction, .. } => (-direction).extend(0.0),
+            Self::Environment(_) => DVec3::Y.extend(0.0),
             Self::Line { from, to } => ((from + to) * 0.5).extend(1.0),
             Self::Point { position }
             | Self::Spot { position, .. }
@@ -237,7 +247,8 @@ impl LightShape {
     }
 
     /// Radius of the smallest known sphere around [`LightShape::center`] that contains the light; 0
-    /// for hard lights. For a sun, the sine of half its angle: the radius at distance 1.
+    /// for hard lights. For a sun, the sine of half its angle: the radius at distance 1; for the
+    /// environment 1.
     pub fn radius(&self) -> f64 {
         match *self {
             Self::Point { .. } | Self::Spot { .. } => 0.0,
@@ -246,6 +257,7 @@ impl LightShape {
             Self::Ellipsoid { radii, .. } => radii.max_element(),
             Self::Rect { size, .. } => size.length() * 0.5,
             Self::Line { from, to } => from.distance(to) * 0.5,
+            Self::Environment(_) => 1.0,
         }
     }
 }

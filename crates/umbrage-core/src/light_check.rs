@@ -88,6 +88,7 @@ fn usable_shape(shape: &LightShape) -> Result<LightShape, String> {
             finite("is from", *from)?;
             finite("is to", *to)?;
         }
+        LightShape::Environment(environment) => environment.check()?,
     }
     Ok(made)
 }

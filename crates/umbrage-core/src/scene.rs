@@ -1,7 +1,10 @@
 //! A scene: everything a picture needs.
 
 use crate::rig::{Moment, Rig};
-use crate::{bounds::Bounds, camera::Camera, light::Light, material::Material, material::Texture, mesh::Mesh};
+use crate::{
+    bounds::Bounds, camera::Camera, environment::Environment, light::Light, material::Material, material::Texture,
+    mesh::Mesh,
+};
 use glam::{DAffine3, Vec3};
 use std::borrow::Cow;
 
@@ -26,6 +29,8 @@ pub struct Scene {
     pub instances: Vec<Instance>,
     /// Lights, in the order of the file.
     pub lights: Vec<Light>,
+    /// The sky around it, a light that is numbered after all [`Self::lights`].
+    pub environment: Option<Environment>,
 }
 
 /// A mesh placed in the world.
@@ -60,6 +65,17 @@ pub struct Pose {
 }
 
 impl Scene {
+    /// All lights by their numbers: [`Self::lights`], then the environment.
+    pub fn numbered_lights(&self) -> impl Iterator<Item = Cow<'_, Light>> {
+        let environment = self.environment.as_ref().map(|e| Cow::Owned(e.light()));
+        self.lights.iter().map(Cow::Borrowed).chain(environment)
+    }
+
+    /// The light of a number, see [`Self::numbered_lights`].
+    pub fn light(&self, number: usize) -> Option<Cow<'_, Light>> {
+        self.numbered_lights().nth(number)
+    }
+
     /// What each joint of an instance does to the vertices of its mesh; `None` for a mesh as it is.
     pub fn joints(&self, instance: &Instance) -> Option<Vec<DAffine3>> {
         let pose = instance.pose?;

@@ -96,7 +96,7 @@ fn finish(path: &Path, mut scene: Scene, mut notes: Vec<String>) -> Result<Opene
     }
     scene.name = printable(&scene.name, LONGEST_TITLE).into_owned();
     placed::check(path, &scene)?;
-    if scene.lights.is_empty() {
+    if scene.lights.is_empty() && scene.environment.is_none() {
         defaults::add_light(&mut scene, &mut notes);
     }
     Ok(Opened { scene, notes })

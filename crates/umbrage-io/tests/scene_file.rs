@@ -201,3 +201,70 @@ fn files_at_hand_are_a_scene_with_all_that_it_names() {
     let none = umbrage_io::open_bytes("b.scene.toml", &files).unwrap_err().to_string();
     assert!(none.contains("b.scene.toml: is not among"), "{none}");
 }
+
+/// The environment of a scene file with this table, beside a folder of pictures.
+fn environment(table: &str, dir: &Path) -> Result<umbrage_core::Environment, String> {
+    let text = format!("[environment]\n{table}\n[[model]]\nprimitive = \"plane\"\nsize = [1, 1]\n");
+    let opened = open_str(&text, dir, "sky.toml").map_err(|e| e.to_string())?;
+    assert!(opened.scene.lights.is_empty(), "a light was made up beside the sky");
+    opened.scene.environment.ok_or_else(|| "none".to_owned())
+}
+
+#[test]
+fn every_kind_of_environment_is_read() {
+    use umbrage_core::glam::{DVec3, Vec3};
+    let dir = tempfile::tempdir().unwrap();
+    let pictures = umbrage_core::Image::from_fn(8, 4, |x, y| [x as f32, y as f32, 1.0]);
+    umbrage_io::pictures::save_exr_rgb(&dir.path().join("sky.exr"), &pictures).unwrap();
+    umbrage_io::pictures::save_exr_rgb(&dir.path().join("one.exr"), &umbrage_core::Image::filled(1, 1, [2.0; 3]))
+        .unwrap();
+    umbrage_io::pictures::save_exr_rgb(&dir.path().join("cross.exr"), &umbrage_core::Image::filled(12, 16, [3.0; 3]))
+        .unwrap();
+    let read = |table: &str| environment(table, dir.path()).unwrap();
+    let picture = read("path = \"sky.exr\"\nrotate = 90\nintensity = 2");
+    // What the picture shows at three quarters, +X, is seen at −Z.
+    assert_eq!(picture.radiance(DVec3::NEG_Z), Vec3::new(11.0, 3.0, 2.0));
+    assert_eq!(read("path = \"one.exr\"").radiance(DVec3::Y), Vec3::splat(2.0));
+    assert_eq!(read("path = \"cross.exr\"").radiance(DVec3::Z), Vec3::splat(3.0));
+    assert_eq!(read("color = [0.1, 0.2, 0.3]").radiance(DVec3::X), Vec3::new(0.1, 0.2, 0.3));
+    let gradient = read("gradient = { zenith = [1, 1, 1], horizon = [0, 0, 0], nadir = [3, 3, 3] }");
+    assert_eq!(gradient.radiance(DVec3::NEG_Y), Vec3::splat(3.0));
+    let sky = read("sun-and-sky = { sun = [0.2, 0.5, 0.1], turbidity = 2.5 }");
+    assert!(sky.radiance(DVec3::new(0.2, 0.5, 0.1).normalize()).y > 1e4);
+}
+
+#[test]
+fn wrong_environments_are_refused_with_line_and_remedy() {
+    let dir = tempfile::tempdir().unwrap();
+    let save = |name: &str, pixel: [f32; 3]| {
+        umbrage_io::pictures::save_exr_rgb(&dir.path().join(name), &umbrage_core::Image::filled(4, 2, pixel)).unwrap();
+    };
+    save("nan.exr", [1.0, f32::NAN, 0.0]);
+    save("below.exr", [1.0, -1.0, 0.0]);
+    std::fs::write(dir.path().join("text.hdr"), "no picture").unwrap();
+    let mut huge = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8192 +X 16384\n".to_vec();
+    huge.extend([0; 4096]);
+    std::fs::write(dir.path().join("huge.hdr"), huge).unwrap();
+    for (table, says) in [
+        ("", "exactly one of: path, color, gradient, sun-and-sky"),
+        ("color = [1, 1, 1]\npath = \"a.exr\"", "`path` are both given"),
+        ("colour = [1, 1, 1]", "unknown key `colour`"),
+        ("color = [1, -1, 1]", "must not be negative"),
+        ("color = [1, 1, 1]\nintensity = -1", "`intensity` must not be negative"),
+        ("color = [1, 1, 1]\nlayout = \"cross\"", "`layout` is for pictures"),
+        ("path = \"below.exr\"\nlayout = \"sphere\"", "`sphere` is unknown"),
+        ("path = \"below.exr\"\nlayout = \"cross\"", "no cross of a cube's faces"),
+        ("path = \"gone.exr\"", "gone.exr: cannot be read"),
+        ("path = \"text.hdr\"", "not a picture of a kind"),
+        ("path = \"nan.exr\"", "pixel (0, 0); radiance is finite and not negative"),
+        ("path = \"below.exr\"", "pixel (0, 0); radiance is finite and not negative"),
+        ("path = \"huge.hdr\"", "too large with 16384 × 8192 pixels"),
+        ("gradient = { zenith = [1, 1, 1], horizon = [0, 0, 0] }", "`nadir` is missing"),
+        ("sun-and-sky = { sun = [0, -1, 0] }", "above the horizon"),
+        ("sun-and-sky = { sun = [0, 1, 0], turbidity = 20 }", "turbidity 20"),
+        ("sun-and-sky = { sun = [0, 1, 0], ground = [2, 0, 0] }", "what reflects is from 0 to 1"),
+    ] {
+        let error = environment(table, dir.path()).unwrap_err();
+        assert!(error.starts_with("sky.toml:") && error.contains(says), "{table}: {error}");
+    }
+}

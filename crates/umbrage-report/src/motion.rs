@@ -234,6 +234,7 @@ fn moved(shape: &LightShape, [x, z]: [f64; 2], scene_radius: f64) -> LightShape 
             *from += by;
             *to += by;
         }
+        LightShape::Environment(environment) => environment.rotate_deg += x * LIGHT_TURN_DEG,
         LightShape::Point { position }
         | LightShape::Spot { position, .. }
         | LightShape::Sphere { position, .. }

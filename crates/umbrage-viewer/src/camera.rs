@@ -84,7 +84,7 @@ fn move_light(light: &mut Light, by: DVec3) {
 /// The same for the shape of a light.
 pub(crate) fn move_shape(shape: &mut LightShape, by: DVec3) {
     match shape {
-        LightShape::Directional { .. } => {}
+        LightShape::Directional { .. } | LightShape::Environment(_) => {}
         LightShape::Line { from, to } => {
             *from += by;
             *to += by;

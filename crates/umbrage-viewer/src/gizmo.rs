@@ -113,6 +113,8 @@ impl Gizmo {
                 gizmo.grip(Handle::End(0), center, from);
                 gizmo.grip(Handle::End(1), center, to);
             }
+            // A sky has no place.
+            LightShape::Environment(_) => {}
         }
         gizmo
     }
@@ -202,7 +204,7 @@ fn resize(shape: &mut LightShape, axis: usize, grip: &Grip, to: DVec3, arm: f64)
         LightShape::Sphere { radius, .. } | LightShape::Disc { radius, .. } => *radius = size,
         LightShape::Ellipsoid { radii, .. } => radii[axis] = size,
         LightShape::Rect { size: sides, .. } => sides[axis] = 2.0 * size,
-        LightShape::Point { .. } | LightShape::Line { .. } => {}
+        LightShape::Point { .. } | LightShape::Line { .. } | LightShape::Environment(_) => {}
     }
 }
 

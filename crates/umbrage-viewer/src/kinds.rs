@@ -35,6 +35,8 @@ pub(crate) fn changed(shape: &LightShape, kind: LightKind, radius: f64) -> Light
             let half = direction.any_orthonormal_vector() * size;
             LightShape::Line { from: position - half, to: position + half }
         }
+        // A sky is the scene's own; a light keeps its shape.
+        LightKind::Environment => shape.clone(),
     }
 }
 

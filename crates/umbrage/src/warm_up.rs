@@ -188,6 +188,7 @@ fn above(light: &Light) -> Light {
         LightShape::Line { from, to } => {
             LightShape::Line { from: place, to: place + DVec3::X * small(from.distance(to)) }
         }
+        sky @ LightShape::Environment(_) => sky,
     };
     Light { shape, range: light.range.map(|_| 20.0), ..light.clone() }
 }

@@ -76,6 +76,8 @@ impl LightSampler {
                 ([up.cross(direction) * (size.x * 0.5), up * (size.y * -0.5)], domain)
             }
             LightShape::Line { from, to } => ([(to - from) * 0.5, DVec3::ZERO], Domain::Square),
+            // The half of the sky around its middle, up.
+            LightShape::Environment(_) => ([DVec3::Z, DVec3::X], Domain::Cap(1.0)),
         };
         LightFrom { center: self.shape.center(), axes, domain }
     }

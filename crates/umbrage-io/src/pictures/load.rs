@@ -71,11 +71,15 @@ pub fn load_mask(path: &Path) -> Result<Image<bool>, Error> {
 /// # Errors
 /// As [`load_texture`].
 pub fn load_rgb(path: &Path) -> Result<Image<[f32; 3]>, Error> {
-    let bytes = error::read(path)?;
-    if image::guess_format(&bytes).ok() == Some(ImageFormat::OpenExr) {
-        return Exr::decode(path, &bytes)?.rgb(path);
+    rgb_from_bytes(path, &error::read(path)?)
+}
+
+/// The same from bytes; errors call them `path`.
+pub(crate) fn rgb_from_bytes(path: &Path, bytes: &[u8]) -> Result<Image<[f32; 3]>, Error> {
+    if image::guess_format(bytes).ok() == Some(ImageFormat::OpenExr) {
+        return Exr::decode(path, bytes)?.rgb(path);
     }
-    let picture = decode(path, &bytes, &[ImageFormat::Hdr], &mut Budget::new(MOST_PIXELS))?.into_rgb32f();
+    let picture = decode(path, bytes, &[ImageFormat::Hdr], &mut Budget::new(MOST_PIXELS))?.into_rgb32f();
     let (width, height) = picture.dimensions();
     let data = bytemuck::allocation::try_cast_vec(picture.into_raw())
         .unwrap_or_else(|(_, numbers)| numbers.as_chunks::<3>().0.to_vec());

@@ -10,9 +10,11 @@
 //!
 //! Files are written beside their place and then renamed: nothing is ever half-written.
 
+mod cross;
 mod load;
 mod save;
 
+pub(crate) use cross::{equirectangular_of_cross, side_of_cross};
 pub use load::{load_grey, load_mask, load_rgb, load_texture, texture_from_bytes};
-pub(crate) use load::{load_within, texture_within};
+pub(crate) use load::{load_within, rgb_from_bytes, texture_within};
 pub use save::{PngPixel, png_bytes, save_bytes, save_exr, save_exr_rgb, save_grey16, save_png};

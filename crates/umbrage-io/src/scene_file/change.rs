@@ -1,6 +1,7 @@
 //! Changes of a scene in the words of the scene format: another camera, lights in the place of
 //! others.
 
+use super::environment;
 use super::light::Lights;
 use super::read_camera;
 use super::reader::{Source, Table};
@@ -18,7 +19,7 @@ const NAME: &str = "the change of the scene";
 /// Changes `scene` by a text with tables of the scene format: `camera` takes the place of the
 /// scene's, and each table of `light` that of the light whose number stands in its key `number`. A
 /// light may have one number more than the last, which adds it. The texture of a `rect` stays where
-/// the light had one.
+/// the light had one. A table `environment` turns the scene's, or changes its intensity.
 ///
 /// # Errors
 /// Whatever is wrong with the text; the scene is then as it was.
@@ -29,13 +30,17 @@ pub fn change(scene: &mut Scene, toml_text: &str) -> Result<(), Error> {
         source.error(e.span().unwrap_or(end), format!("is not valid TOML: {}", e.message()))
     })?;
     let root = Table::new(source, "change", 0..0, document.get_ref());
-    root.check_keys(&[&["camera", "light"]])?;
+    root.check_keys(&[&["camera", "light", "environment"]])?;
     let mut changed = Scene { lights: scene.lights.clone(), ..Scene::default() };
     let camera = root.get("camera").map(|c| read_camera(&c.table()?)).transpose()?;
     if let Some(tables) = root.get("light") {
         for table in tables.tables()? {
             read_light(&mut changed, &table)?;
         }
+    }
+    let environment = scene.environment.as_ref();
+    if let Some(table) = root.get("environment") {
+        scene.environment = Some(environment::change(environment, &table.table()?)?);
     }
     scene.lights = changed.lights;
     scene.camera = camera.unwrap_or_else(|| scene.camera.clone());
@@ -68,11 +73,22 @@ fn read_light(scene: &mut Scene, table: &Table<'_>) -> Result<(), Error> {
 /// one line, every number to its last bit. An empty text where there are none.
 pub fn changes(camera: Option<&Camera>, lights: &[(usize, &Light)]) -> String {
     let mut text = camera.map(|camera| format!("camera = {}", camera_table(camera))).unwrap_or_default();
-    if !lights.is_empty() {
-        let tables: Vec<String> = lights.iter().map(|(number, light)| light_table(*number, light)).collect();
+    let mut tables = Vec::new();
+    let mut line = |start: &str, rest: String| {
         let between = if text.is_empty() { "" } else { "\n" };
         // Writing to a text does not fail.
-        let _ = write!(text, "{between}light = [{}]", tables.join(", "));
+        let _ = write!(text, "{between}{start}{rest}");
+    };
+    for (number, light) in lights {
+        match &light.shape {
+            LightShape::Environment(e) => {
+                line("environment = ", format!("{{ rotate = {:?}, intensity = {:?} }}", e.rotate_deg, e.intensity));
+            }
+            shape => tables.push(light_table(*number, light, shape)),
+        }
+    }
+    if !tables.is_empty() {
+        line("light = ", format!("[{}]", tables.join(", ")));
     }
     text
 }
@@ -87,9 +103,9 @@ fn camera_table(camera: &Camera) -> String {
     format!("{{ eye = {eye}, target = {target}, up = {up}, {rest} }}")
 }
 
-fn light_table(number: usize, light: &Light) -> String {
-    let default = Light::new(light.shape.clone());
-    let mut text = format!("{{ number = {number}, {}", shape_keys(&light.shape));
+fn light_table(number: usize, light: &Light, shape: &LightShape) -> String {
+    let default = Light::new(shape.clone());
+    let mut text = format!("{{ number = {number}, {}", shape_keys(shape));
     let mut key = |name: &str, value: String, differs: bool| {
         if differs {
             text += &format!(", {name} = {value}");
@@ -130,6 +146,8 @@ fn shape_keys(shape: &LightShape) -> String {
             format!("kind = \"rect\", {}, up = {}, size = [{x:?}, {y:?}]", aimed(position, direction), vec3(*up))
         }
         LightShape::Line { from, to } => format!("kind = \"line\", from = {}, to = {}", vec3(*from), vec3(*to)),
+        // It has a table of its own.
+        LightShape::Environment(_) => "kind = \"environment\"".to_owned(),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Scene files: camera, models and lights in one TOML text.
 
 mod change;
+mod environment;
 mod light;
 mod model;
 mod reader;
@@ -25,7 +26,7 @@ pub(crate) fn read(files: Files<'_>, text: &str, dir: &Path, file: &Path) -> Res
         source.error(e.span().unwrap_or(end), format!("is not valid TOML: {}", e.message()))
     })?;
     let root = Table::new(source, "scene", 0..0, document.get_ref());
-    root.check_keys(&[&["name", "camera", "ambient", "model", "light"]])?;
+    root.check_keys(&[&["name", "camera", "ambient", "environment", "model", "light"]])?;
 
     let mut scene =
         Scene { name: root.get_or("name", title(file), |v| v.string().map(str::to_owned))?, ..Scene::default() };
@@ -33,6 +34,9 @@ pub(crate) fn read(files: Files<'_>, text: &str, dir: &Path, file: &Path) -> Res
         let ambient = ambient.table()?;
         ambient.check_keys(&[&["color"]])?;
         scene.ambient = ambient.get_or("color", scene.ambient, Value::color)?;
+    }
+    if let Some(table) = root.get("environment") {
+        scene.environment = Some(environment::read(files, dir, &table.table()?)?);
     }
     let camera = root.get("camera").map(|c| read_camera(&c.table()?)).transpose()?;
     let mut models = Models::new(files, dir);

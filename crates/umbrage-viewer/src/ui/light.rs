@@ -101,6 +101,7 @@ fn shape(shape: &mut LightShape, radius: f64, ui: &mut egui::Ui) {
                 *to = if before == *from { *from + DVec3::X * radius * 1e-3 } else { before };
             }
         }
+        LightShape::Environment(sky) => number(ui, "turn", &mut sky.rotate_deg, -180.0..=180.0, "°"),
     }
 }
 

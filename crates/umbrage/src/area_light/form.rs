@@ -97,6 +97,7 @@ impl Form {
                 Self::flat(face, position, up.cross(direction) * (size.x * 0.5), up * (size.y * -0.5))
             }
             LightShape::Line { from, to } => Self::line((from + to) * 0.5, (to - from) * 0.5),
+            LightShape::Environment(_) => Self::sun(DVec3::Y, std::f64::consts::FRAC_PI_2),
         }
     }
 

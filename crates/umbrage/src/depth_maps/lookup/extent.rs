@@ -56,6 +56,8 @@ impl LightExtent {
                 Self::flat(up.cross(direction) * (size.x * 0.5), up * (size.y * 0.5), direction)
             }
             LightShape::Line { from, to } => Self::flat((to - from) * 0.5, DVec3::ZERO, DVec3::ZERO),
+            // No map shows it; this is the half of the sky around its middle.
+            LightShape::Environment(_) => Self::round(DMat3::IDENTITY, DVec3::ONE),
         }
     }
 

@@ -193,6 +193,7 @@ impl Axes {
                 flat(up.cross(direction) * (size.x * 0.5), up * (size.y * 0.5), false)
             }
             LightShape::Line { from, to } => flat((to - from) * 0.5, DVec3::ZERO, false),
+            LightShape::Environment(_) => flat(DVec3::X, DVec3::Z, true),
         }
     }
 
