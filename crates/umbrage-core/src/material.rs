@@ -1,6 +1,7 @@
 //! Surface appearance.
 
 use glam::{Vec2, Vec3, Vec4};
+use std::ops::{Add, Mul};
 
 /// What a surface looks like under the standard lighting model (PX 2.2), and where it is cut out.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,12 +100,25 @@ impl Texture {
     /// Alpha in 0…1 at texture coordinates `uv` (row 0 is v = 0): the same filter as the GPU's, so
     /// that a cut-out edge lies at the same place for a ray and for a rasteriser.
     pub fn alpha(&self, uv: Vec2) -> f32 {
+        self.filtered(uv, |p| f32::from(p[3]) / 255.0)
+    }
+
+    /// Linear RGB at texture coordinates `uv`, by the same filter.
+    pub fn color(&self, uv: Vec2) -> Vec3 {
+        let linear = |c: u8| {
+            let c = f32::from(c) / 255.0;
+            if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+        };
+        self.filtered(uv, |p| Vec3::new(linear(p[0]), linear(p[1]), linear(p[2])))
+    }
+
+    fn filtered<T: Mul<f32, Output = T> + Add<Output = T>>(&self, uv: Vec2, of: impl Fn([u8; 4]) -> T) -> T {
         let (w, h) = (f64::from(self.width), f64::from(self.height));
         let (x, y) = (f64::from(uv.x) * w, f64::from(uv.y) * h);
         let [wrap_u, wrap_v] = self.sampling.wrap;
         let at = |x: f64, y: f64| {
             let (i, j) = (wrap_u.pixel(x, w), wrap_v.pixel(y, h));
-            f32::from(self.rgba[j * self.width as usize + i][3]) / 255.0
+            of(self.rgba[j * self.width as usize + i])
         };
         if self.sampling.filter == Filter::Nearest {
             return at(x.floor(), y.floor());

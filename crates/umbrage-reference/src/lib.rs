@@ -3,7 +3,8 @@
 //! [`Tracer::new`] takes a scene, [`Tracer::geometry`] finds what a camera sees, and
 //! [`Tracer::visibility`] computes for each pixel the share of a light that its surface sees past
 //! the casting triangles. What visibility is, the scene format specifies; [`closed_form`] holds the
-//! formulas that the tracer is tested against. [`Progressive`] traces the same in slices, for
+//! formulas that the tracer is tested against. [`PathTracer`] traces the radiance that an
+//! environment makes surfaces send. [`Progressive`] traces the same in slices, for
 //! windows.
 
 mod bvh;
@@ -14,6 +15,7 @@ mod kept;
 mod light_seen;
 mod light_view;
 mod progressive;
+mod radiance;
 mod shaft;
 mod tracer;
 mod triangle;
@@ -23,5 +25,6 @@ pub use geometry::{Geometry, Shown, Surface};
 pub use kept::{Kept, Key, SceneKey, Traced};
 pub use light_seen::{Blocker, LightSeen, Spot};
 pub use progressive::Progressive;
+pub use radiance::{PathTracer, RadianceOptions, RadianceTruth};
 pub use tracer::Tracer;
 pub use visibility::{Options, Truth};

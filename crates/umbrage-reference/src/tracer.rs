@@ -23,6 +23,8 @@ pub struct Tracer {
     pub(crate) instances: Vec<InstanceFlags>,
     /// Instance of every triangle number.
     instance_of: Vec<u32>,
+    /// Which triangle of its mesh each number is.
+    index_of: Vec<u32>,
     all: Bvh,
     /// Where some triangles cast no shadow: those that do.
     casters: Option<Bvh>,
@@ -47,6 +49,7 @@ impl Tracer {
             scale: bounds.size().max_element() * 0.5,
             instances: Vec::new(),
             instance_of: Vec::new(),
+            index_of: Vec::new(),
             all: Bvh::new(Vec::new()),
             casters: None,
             cutouts: Cutouts::default(),
@@ -79,7 +82,7 @@ impl Tracer {
         let offset = instance.world_from_mesh.translation - self.center;
         let place =
             |i: u32| mesh.positions.get(i as usize).map(|p| instance.world_from_mesh.matrix3 * p.as_dvec3() + offset);
-        for indices in mesh.triangles() {
+        for (index, indices) in (0..).zip(mesh.triangles()) {
             let [Some(a), Some(b), Some(c)] = indices.map(place) else { continue };
             let Some(mut triangle) = Triangle::new([a, b, c], self.instance_of.len() as u32, Triangle::OPAQUE) else {
                 continue;
@@ -88,6 +91,7 @@ impl Tracer {
                 triangle.cutout = self.cutouts.add(mesh, indices, mask);
             }
             self.instance_of.push(number);
+            self.index_of.push(index);
             triangles.push(triangle);
         }
     }
@@ -117,6 +121,12 @@ impl Tracer {
     /// `origin` is relative to the centre.
     pub(crate) fn first(&self, origin: DVec3, direction: DVec3, t_min: f64) -> Option<(&Triangle, f64)> {
         self.all.first(&Ray { origin, direction, t_min, t_max: f64::INFINITY }, None, &self.cutouts)
+    }
+
+    /// The instance that a triangle belongs to, among those with a mesh, and its index there.
+    pub(crate) fn place_of(&self, triangle: u32) -> Option<(usize, usize)> {
+        let at = triangle as usize;
+        Some((*self.instance_of.get(at)? as usize, *self.index_of.get(at)? as usize))
     }
 
     /// The instance that a triangle belongs to.

@@ -3,6 +3,7 @@
 mod closed_forms;
 mod light_seen;
 mod progressive;
+mod radiance;
 mod references;
 mod scales;
 mod scenes;
