@@ -56,9 +56,9 @@ cargo xtask COMMAND
           library's tests, and write a benchmark; --any takes a software adapter where there is nothing else
   isa     compile every shader of every technique for two of AMD's GPUs, which need not be there, with Mesa's RADV;
           write registers, spills and throughput to benchmarks/isa/ and tell what has changed
-  tables za|fe|px
-          measure the tables of three theses again: filtered and soft maps (za), splits (fe), wedges (px);
-          write maps/, splits/ or loops/ there
+  tables za [TECHNIQUE ...] | fe | px
+          measure the tables of three theses again: filtered and soft maps (za, all or some of the techniques),
+          splits (fe), wedges (px); write maps/, splits/ or loops/ there
   docs    write the generated tables of README.md and of the techniques' pages
   docs --pictures
           render the pictures of README.md again
@@ -99,7 +99,7 @@ fn run() -> Result<()> {
         ["docs"] => docs::tables(),
         ["docs", "--pictures"] => docs::pictures(),
         ["docs", "--numbers"] => docs::numbers(),
-        ["tables", "za"] => tables::za::run(),
+        ["tables", "za", only @ ..] => tables::za::run(only),
         ["tables", "fe"] => tables::fe::run(),
         ["tables", "px"] => tables::px::run(),
         [] | ["help" | "-h" | "--help"] => {

@@ -3,7 +3,7 @@
 
 use super::{Run, bunny, file, frame_ms, head, make_scenes, measure, number, result, row};
 use crate::bench;
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use serde_json::Value;
 use std::fmt::Write;
 
@@ -35,9 +35,9 @@ const BUNNIES: [(f64, f64, [f64; 2]); 7] = [
     (5.5, -20.0, [0.9, 2.1]),
 ];
 
-/// A method of the thesis.
+/// A method of the thesis, or one of ours beside it.
 struct Method {
-    /// What the thesis calls it.
+    /// What the thesis calls it; ours are called what they are.
     name: &'static str,
     /// How we do it; `None` where we don't. Brute force is without its number of points.
     technique: Option<&'static str>,
@@ -74,8 +74,14 @@ const fn same(small: f64, large: f64) -> [f64; 4] {
     [small, small, large, large]
 }
 
+/// A method that the thesis does not have, and so has no numbers of.
+const fn ours(name: &'static str, technique: &'static str) -> Method {
+    const NONE: [f64; 4] = same(f64::NAN, f64::NAN);
+    method(name, Some(technique), NONE, NONE, NONE, f64::NAN)
+}
+
 /// In the order of the thesis; basic maps are /b/, midpoint maps /m/.
-const METHODS: [Method; 22] = [
+const METHODS: [Method; 25] = [
     method("no shadow", Some("none"), same(0.89, 1.37), same(0.90, 1.38), same(3.92, 4.53), 57.193),
     method("volume, hard", Some("volume"), same(2.58, 3.62), same(2.52, 3.63), same(13.86, 16.08), 88.113),
     brute(method(
@@ -231,6 +237,9 @@ const METHODS: [Method; 22] = [
         [69.78, 97.78, 93.81, 121.81],
         95.325,
     ),
+    ours("silhouette map, hard", "silhouette-map"),
+    ours("smoothies", "smoothies"),
+    ours("maps of a line light's ends", "linear-light"),
 ];
 
 impl Method {
@@ -241,8 +250,15 @@ impl Method {
     }
 }
 
-/// Measures and writes `maps/`.
-pub fn run() -> Result<()> {
+/// Measures and writes `maps/`. Where techniques are named, only their methods and `none`.
+pub fn run(only: &[&str]) -> Result<()> {
+    let id = |m: &Method| m.technique.and_then(|technique| technique.split(':').next());
+    for name in only {
+        ensure!(METHODS.iter().any(|m| id(m) == Some(name)), "no method of tables ZA is done by `{name}`");
+    }
+    let is_wanted = |m: &&Method| only.is_empty() || id(m).is_some_and(|id| id == "none" || only.contains(&id));
+    let methods: Vec<&Method> = METHODS.iter().filter(is_wanted).collect();
+
     let scenes = make_scenes(&[
         ("bunny-16301.obj", bunny(BUNNY)?),
         ("za-basic.scene.toml", include_str!("basic.scene.toml").into()),
@@ -250,16 +266,22 @@ pub fn run() -> Result<()> {
     ])?;
     let scenes = scenes[1..].join(" ");
     let labels = |brute: bool, points: &[u32]| -> Vec<String> {
-        let of = |points: u32| METHODS.iter().filter(|m| m.brute == brute).filter_map(move |m| m.label(points));
+        let of = |points: u32| methods.iter().filter(move |m| m.brute == brute).filter_map(move |m| m.label(points));
         points.iter().flat_map(|points| of(*points)).collect()
     };
-    let (fast, brute) = (labels(false, &POINTS[..1]).join(","), labels(true, &POINTS).join(","));
+    let (fast, mut brute) = (labels(false, &POINTS[..1]).join(","), labels(true, &POINTS).join(","));
+    if brute.is_empty() {
+        // Runs are found by their places.
+        brute = "none".into();
+    }
     let bench = |techniques: &str, size: u32, moving: &str, frames: u32| {
         let how = format!("--moving {moving} --frames {frames} --size {size}x{size} --json");
         format!("bench {scenes} --techniques {techniques} {how}")
     };
     let mut all = [labels(false, &POINTS[..1]), labels(true, &POINTS[..1])].concat();
-    all.extend(BIAS.iter().filter(|way| way.contains("bias")).map(|way| way.to_string()));
+    if only.is_empty() {
+        all.extend(BIAS.iter().filter(|way| way.contains("bias")).map(|way| way.to_string()));
+    }
     let all = all.join(",");
     let compare = format!(
         "compare {scenes} --techniques {all} --samples 1024 --size 350x350 --frames 1 --json -o target/tables/za"
@@ -274,7 +296,7 @@ pub fn run() -> Result<()> {
         Run { file: "correctness.json", line: compare },
     ];
     let (folder, found) = measure("maps", &runs)?;
-    file(&folder, &text(&found))
+    file(&folder, &text(&found, &methods, only))
 }
 
 fn huge() -> String {
@@ -291,12 +313,10 @@ fn huge() -> String {
 }
 
 /// The reading's frame: the tables, and room for what they say.
-fn text(found: &[Value]) -> String {
-    let mut text = bench::heading(
-        "Filtered and soft shadow maps, tables ZA 5.1 to 5.4,",
-        &found[0]["made"],
-        "cargo xtask tables za",
-    );
+fn text(found: &[Value], methods: &[&Method], only: &[&str]) -> String {
+    let command = ["cargo xtask tables za", &only.join(" ")].join(" ");
+    let mut text =
+        bench::heading("Filtered and soft shadow maps, tables ZA 5.1 to 5.4,", &found[0]["made"], command.trim_end());
     let triangles = |scene: usize| found[0]["scenes"][scene]["triangles"].to_string();
     let _ = writeln!(
         text,
@@ -316,9 +336,10 @@ fn text(found: &[Value]) -> String {
         ("5.3: huge scene, 64 points of the light", 1, POINTS[0], |m| m.huge),
     ];
     for (title, scene, points, thesis) in tables {
-        text += &times(title, found, scene, points, thesis);
+        text += &times(title, found, methods, (scene, points), thesis);
     }
-    text + &correctness(&found[6]) + &biased(&found[6])
+    text += &correctness(&found[6], methods);
+    if only.is_empty() { text + &biased(&found[6]) } else { text }
 }
 
 /// Milliseconds of the passes that frames with a moving light have and others have not: what is
@@ -330,10 +351,16 @@ fn dynamic_ms(still: &Value, moving: &Value) -> Option<f64> {
     Some(moving.iter().filter(|pass| !is_kept(pass)).filter_map(|pass| pass["time_ms"]["median"].as_f64()).sum())
 }
 
-fn times(title: &str, found: &[Value], scene: usize, points: u32, thesis: fn(&Method) -> [f64; 4]) -> String {
+fn times(
+    title: &str,
+    found: &[Value],
+    methods: &[&Method],
+    (scene, points): (usize, u32),
+    thesis: fn(&Method) -> [f64; 4],
+) -> String {
     let columns = ["method", "technique", "dynamic part", "700² static", "700² dynamic", "900² static", "900² dynamic"];
     let mut text = format!("\n## {title}\n{}", head(&columns));
-    for method in &METHODS {
+    for method in methods {
         // Static and dynamic at either size.
         let own = [0, 2, 1, 3].map(|run: usize| {
             let label = method.label(points)?;
@@ -353,15 +380,20 @@ fn times(title: &str, found: &[Value], scene: usize, points: u32, thesis: fn(&Me
         let mut cells = vec![
             method.name.to_string(),
             method.technique.map_or("–".into(), |technique| format!("`{technique}`")),
-            format!("{} ({:.0})", number(part, 1), thesis[1] - thesis[0]),
+            format!("{} ({})", number(part, 1), known(thesis[1] - thesis[0], 0)),
         ];
-        cells.extend(own.iter().zip(thesis).map(|(own, thesis)| format!("{} ({thesis:.1})", number(*own, 1))));
+        cells.extend(own.iter().zip(thesis).map(|(own, thesis)| format!("{} ({})", number(*own, 1), known(thesis, 1))));
         text += &row(cells);
     }
     text
 }
 
-fn correctness(json: &Value) -> String {
+/// What the thesis says; a dash of what it does not have.
+fn known(value: f64, digits: usize) -> String {
+    number(Some(value).filter(|value| value.is_finite()), digits)
+}
+
+fn correctness(json: &Value, methods: &[&Method]) -> String {
     let columns = ["method", "technique", "thesis, %", "basic, %", "huge, %", "basic, mae", "huge, mae"];
     let mut text = format!(
         "\n## 5.4: correctness\nPercentage of scored pixels whose visibility is off by at most 0.02 from 1024 rays, 350×350; brute force with \
@@ -369,13 +401,13 @@ fn correctness(json: &Value) -> String {
         POINTS[0],
         head(&columns)
     );
-    for method in &METHODS {
+    for method in methods {
         let label = method.label(POINTS[0]);
         let score = |scene: usize, name: &str| result(json, scene, label.as_deref()?)?["scores"][name].as_f64();
         text += &row([
             method.name.to_string(),
             label.as_ref().map_or("–".into(), |label| format!("`{label}`")),
-            format!("{:.2}", method.correct),
+            known(method.correct, 2),
             number(score(0, "correct_pct"), 2),
             number(score(1, "correct_pct"), 2),
             number(score(0, "mae"), 4),
@@ -408,7 +440,9 @@ mod tests {
 
     #[test]
     fn dynamic_light_costs_no_less_than_static() {
-        for Method { name, basic, hundred, huge, correct, .. } in &METHODS {
+        let of_the_thesis = METHODS.iter().filter(|m| m.correct.is_finite());
+        assert_eq!(of_the_thesis.clone().count(), 22);
+        for Method { name, basic, hundred, huge, correct, .. } in of_the_thesis {
             for [still, moving, still_large, moving_large] in [basic, hundred, huge] {
                 assert!(still <= moving && still_large <= moving_large, "{name}");
             }
@@ -430,7 +464,8 @@ mod tests {
             json!({"scenes": [{"lights": [{"results": results}]}]})
         };
         let found = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(report);
-        let text = times("a", &found, 0, POINTS[1], |m| m.basic);
+        let all: Vec<&Method> = METHODS.iter().collect();
+        let text = times("a", &found, &all, (0, POINTS[1]), |m| m.basic);
         assert!(
             text.contains("| no shadow | `none` | 3.0 (0) | 1.0 (0.9) | 3.0 (0.9) | 2.0 (1.4) | 4.0 (1.4) |"),
             "{text}"
@@ -444,8 +479,10 @@ mod tests {
 
     #[test]
     fn without_results_every_table_is_there_with_dashes() {
-        let text = text(&vec![Value::Null; 7]);
+        let all: Vec<&Method> = METHODS.iter().collect();
+        let text = text(&vec![Value::Null; 7], &all, &[]);
         assert_eq!(text.matches("\n## ").count(), 6);
+        assert!(text.contains("| smoothies | `smoothies` | – (–) | – (–) | – (–) | – (–) | – (–) |"), "{text}");
         assert_eq!(text.matches("| map, combined /m/ |").count(), 4);
         assert!(
             text.contains("| projective, soft | `projective` | – (0) | – (17.7) | – (17.7) | – (26.1) | – (26.1) |"),

@@ -37,6 +37,11 @@ pub(super) struct Batches {
 }
 
 impl Batches {
+    /// Whether any instance has an alpha mask: these come last.
+    pub fn has_masked(&self) -> bool {
+        self.order.last().is_some_and(|last| self.get(*last).masked)
+    }
+
     /// The batch of an instance that came.
     pub fn join(&mut self, key: Key, mesh: u32, texture: Option<u32>, many: Option<u32>) -> u32 {
         let number = match self.by_key.get(&key) {
@@ -111,6 +116,7 @@ mod tests {
                 batches.leave(number);
             }
             let keys: Vec<Key> = batches.order().iter().map(|n| batches.get(*n).key).collect();
+            assert_eq!(batches.has_masked(), held.iter().any(|(mesh, _)| mesh % 2 == 1));
             let mut wanted: Vec<Key> = held.iter().map(|(mesh, _)| key(*mesh)).collect();
             wanted.sort();
             wanted.dedup();

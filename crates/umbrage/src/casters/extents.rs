@@ -34,6 +34,11 @@ impl Casters {
         self.receiving_in.iter().fold(self.receiving.content(), |all, one| all.union(*one))
     }
 
+    /// Whether any instance has an alpha mask, so that outlines are not those of triangles alone.
+    pub(crate) fn has_masked(&self) -> bool {
+        self.batches.has_masked()
+    }
+
     /// A box around everything that casts shadows, what the host draws included.
     pub(crate) fn casting_content(&self) -> Bounds {
         self.casting.content().union(self.host_bounds().unwrap_or(Bounds::EMPTY))

@@ -7,6 +7,9 @@ use umbrage_core::light_view::{CUBE_SIDES, Omni};
 /// Most layers of a light's maps: as many as there may be splits.
 pub const MOST_LAYERS: usize = umbrage_core::splits::MOST_SPLITS;
 
+/// Layers that one look-up reads: those of two points with the sides of a cube each.
+pub(super) const LOOKUP_LAYERS: usize = 2 * CUBE_SIDES as usize;
+
 /// Names of the pictures inside, one a layer.
 pub const LAYER_NAMES: [&str; MOST_LAYERS] =
     ["map-0", "map-1", "map-2", "map-3", "map-4", "map-5", "map-6", "map-7", "map-8"];
@@ -69,6 +72,7 @@ impl Blend {
 /// What `lookup/map_layers.wgsl` calls the limit and the kinds of layers and blends.
 pub(super) const LAYER_CONSTANTS: &[HostConstant] = &[
     ("MOST_LAYERS", MOST_LAYERS as f64),
+    ("LOOKUP_LAYERS", LOOKUP_LAYERS as f64),
     ("SINGLE", Layers::Single.number()),
     ("CUBE", Layers::Omni(Omni::Cube).number()),
     ("TETRAHEDRON", Layers::Omni(Omni::Tetrahedral).number()),

@@ -43,6 +43,11 @@ impl PointMaps {
             self.draw.forget();
         }
         self.draw.prepare(gpu, view, &mut self.frame);
+        self.look_up(gpu, view, lookup);
+    }
+
+    /// Chooses another look-up.
+    pub fn look_up(&mut self, gpu: &Gpu, view: &View<'_>, lookup: &mut Lookup) {
         lookup.prepare(gpu, view, &self.frame, &mut self.input);
     }
 

@@ -55,12 +55,14 @@ struct LightExtent {
 
 // Most layers of a light.
 const MOST_LAYERS: u32 = 9u;
+// Room for those of two points, the second one's from the middle on.
+const LOOKUP_LAYERS: u32 = 12u;
 
 struct MapLookup {
     eye: Eye,
     // From positions relative to the eye, for `map_inline`.
     ndc_from_eye: mat4x4f,
-    layers: array<MapLayer, MOST_LAYERS>,
+    layers: array<MapLayer, LOOKUP_LAYERS>,
     // A receiver's place to the way from the light's centre, or along parallel light, times w.
     // Chooses the layer.
     from_light: mat4x4f,
@@ -80,7 +82,9 @@ struct MapLookup {
     softness: f32,
     // Offsets tuned by hand: along the light, metres; and the rise over so many texels.
     offsets: vec2f,
-    pad: vec2f,
+    // 1 where the outlines of all casters are edges of triangles, 0 where there are alpha masks.
+    outlined: f32,
+    pad: f32,
     // Takes a receiver's place to the distance along the view, times w.
     view_distance: vec4f,
     // Distances at which splits end, and at which blending with the next one begins.

@@ -368,14 +368,19 @@ fn map_bend(point: MapPoint, texels: f32) -> f32 {
     return select(map.bias, 0.0, CLASSIC) * BEND * texels * texel_depth(point);
 }
 
-// Whether a receiver is lit when the depth `stored` lies `offset` texels away from it: its plane,
-// continued to there, is compared with forgiveness for a crease between and for `bend`. All is
-// multiplied by |across|, so that nothing is divided and a plane seen edge-on counts as lit.
-fn is_lit_beyond(point: MapPoint, offset: vec2f, stored: f32, bend: f32) -> bool {
+// How far a receiver is lit by the depth `stored` that lies `offset` texels away from it, shadowed
+// where that is negative: its plane, continued to there, is compared with forgiveness for a crease
+// between and for `bend`. All is multiplied by |across|, so that nothing is divided and a plane seen edge-on counts
+// as lit.
+fn lit_margin(point: MapPoint, offset: vec2f, stored: f32, bend: f32) -> f32 {
     let step = plane_step(point, point.along, point.bend, offset) * sign(point.across);
     let toward = before_horizon(step, point.depth * abs(point.across));
     let crease = map.bias * CREASE * (abs(point.along.x) + abs(point.along.y));
-    return (point.depth + map.bias * point.rounding + bend - stored) * abs(point.across) + toward + crease >= 0.0;
+    return (point.depth + map.bias * point.rounding + bend - stored) * abs(point.across) + toward + crease;
+}
+
+fn is_lit_beyond(point: MapPoint, offset: vec2f, stored: f32, bend: f32) -> bool {
+    return lit_margin(point, offset, stored, bend) >= 0.0;
 }
 
 fn is_lit(point: MapPoint, offset: vec2f, stored: f32) -> bool {

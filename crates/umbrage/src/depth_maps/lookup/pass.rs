@@ -271,6 +271,16 @@ impl LookupInput {
         self.bias = bias;
     }
 
+    /// Whether one look-up can read the maps of both points: the same pipeline was chosen for them.
+    pub fn joins(&self, other: &Self) -> bool {
+        self.current.is_some() && self.current == other.current
+    }
+
+    /// Reads another point's maps, too, see [`LookupInput::joins`].
+    pub fn join(&mut self, other: &Self) {
+        self.data.join(&other.data);
+    }
+
     /// The uniforms of [`MapLookup`].
     pub fn uniforms(&self) -> &wgpu::Buffer {
         &self.uniforms

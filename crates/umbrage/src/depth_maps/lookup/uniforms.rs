@@ -4,7 +4,7 @@ use super::extent::LightExtent;
 use super::layer::MapLayer;
 use super::steady::{OUTSIDE, share_first};
 use crate::depth_maps::frame::MapFrame;
-use crate::depth_maps::layers::{LAYER_CONSTANTS, MOST_LAYERS};
+use crate::depth_maps::layers::{LAYER_CONSTANTS, LOOKUP_LAYERS, MOST_LAYERS};
 use crate::depth_maps::setup::Bias;
 use crate::depth_maps::texels::{matrix, near, view_distance};
 use crate::{receivers::Eye, shader::Shared, shader::shader_struct, view::View};
@@ -17,7 +17,7 @@ shader_struct! {
     pub(crate) struct MapLookup {
         eye: Eye,
         ndc_from_eye: [[f32; 4]; 4],
-        layers: [MapLayer; MOST_LAYERS],
+        layers: [MapLayer; LOOKUP_LAYERS],
         from_light: [[f32; 4]; 4],
         rounding: [f32; 2],
         size: f32,
@@ -27,7 +27,8 @@ shader_struct! {
         last_split: f32,
         softness: f32,
         offsets: [f32; 2],
-        pad: [f32; 2],
+        outlined: f32,
+        pad: f32,
         view_distance: [f32; 4],
         splits: [[f32; 4]; 2],
         blends: [[f32; 4]; 2],
@@ -53,7 +54,7 @@ impl MapLookup {
         // A layer that was not rendered sends every point outside of the map, where all is lit.
         let outside = DMat4::from_cols(DVec4::ZERO, DVec4::ZERO, DVec4::ZERO, DVec4::new(-1.0, -1.0, 0.0, 1.0));
         let nothing = MapLayer { map_from_place: matrix(&outside), from_first: OUTSIDE, ..MapLayer::default() };
-        let mut layers = [nothing; MOST_LAYERS];
+        let mut layers = [nothing; LOOKUP_LAYERS];
         let world_from_place = DMat4::from_translation(view.camera.eye) * eye_from_place;
         for v in &maps.views {
             layers[v.layer as usize] = MapLayer::of(v, &world_from_place, &maps.scene.casters);
@@ -71,9 +72,19 @@ impl MapLookup {
             caster_rounding: (largest_coordinate(view) * 2.4e-7 + storage_rounding(maps)) as f32,
             farthest: FARTHEST as f32,
             softness: maps.softness_m as f32,
+            outlined: if view.casters.has_masked() { 0.0 } else { 1.0 },
             light: LightExtent::of(&view.light.shape),
             ..Self::splits(view, maps, &eye_from_place)
         }
+    }
+}
+
+impl MapLookup {
+    /// Has the layers of another point's maps besides, which have as many texels.
+    pub(super) fn join(&mut self, other: &Self) {
+        let half = LOOKUP_LAYERS / 2;
+        self.layers[half..].copy_from_slice(&other.layers[..half]);
+        self.caster_rounding = self.caster_rounding.max(other.caster_rounding);
     }
 }
 

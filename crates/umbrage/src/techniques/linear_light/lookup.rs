@@ -2,7 +2,8 @@
 
 use super::channel::NONE;
 use super::light::weight;
-use super::point::Point;
+use super::point::{Made, Point};
+use super::steps::MAPS;
 use super::uniform::PointLookup;
 use crate::depth_maps::{Blend, Lookup};
 use crate::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, attachment, bind, layer_view, layout, target_texture};
@@ -21,6 +22,8 @@ pub(super) struct Pipelines {
     /// In the order of [`Role`].
     lookups: [Lookup; 5],
     own: wgpu::BindGroupLayout,
+    /// Of two points that are looked up at once.
+    of_two: wgpu::BindGroupLayout,
     both: wgpu::BindGroupLayout,
     piece: wgpu::RenderPipeline,
     seen: Option<Seen>,
@@ -28,7 +31,7 @@ pub(super) struct Pipelines {
 
 /// What a point is in its light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Role {
+pub(super) enum Role {
     /// The light is one point.
     Alone,
     /// One end.
@@ -36,20 +39,28 @@ enum Role {
     Between,
     /// The other end, which adds up the last piece of the light.
     Last,
-    /// That where there is no other piece.
-    Second,
+    /// One of two points that are looked up at once.
+    OfTwo,
 }
 
 impl Role {
-    fn of(i: usize, count: usize) -> Self {
+    /// Of point `i` of so many.
+    pub fn of(i: usize, count: usize) -> Self {
         match (i, count) {
             (_, 1) => Self::Alone,
             (0, _) => Self::First,
-            (1, 2) => Self::Second,
             _ if i + 1 == count => Self::Last,
             _ => Self::Between,
         }
     }
+}
+
+/// Where points are looked up.
+#[derive(Clone, Copy)]
+pub(super) struct Lit<'a> {
+    pub receivers: &'a Receivers,
+    /// The pixels that the light can light: the first, and how many.
+    pub pixels: [u32; 4],
 }
 
 /// What two points in turn see of each pixel.
@@ -69,33 +80,37 @@ impl Pipelines {
         };
         let bindings = [UNIFORM, shares, fullscreen::texture(FLOATS)];
         let own = layout(gpu, "shares", wgpu::ShaderStages::FRAGMENT, &bindings);
+        let bindings = [UNIFORM, shares, fullscreen::texture(FLOATS), shares, MAPS];
+        let of_two = layout(gpu, "shares of both ends", wgpu::ShaderStages::FRAGMENT, &bindings);
         let both = layout(gpu, "both ends", wgpu::ShaderStages::FRAGMENT, &[fullscreen::texture(FLOATS); 2]);
         let module = super::PIECES.module(gpu);
         let target = weighted();
         let piece =
             Fullscreen { label: "piece", module: &module, entry: "piece", groups: &[&both], target, constants: &[] };
-        let lookup = |neighbours: f64| {
+        let lookup_of = |neighbours: f64, layout: &wgpu::BindGroupLayout| {
             let constants = [("NEIGHBOURS", neighbours), ("THRESHOLD", threshold)];
-            Lookup::new(gpu, &super::LOOKUP, Blend::Off, &constants, Some(own.clone()))
+            Lookup::new(gpu, &super::LOOKUP, Blend::Off, &constants, Some(layout.clone()))
         };
+        let lookup = |neighbours| lookup_of(neighbours, &own);
         Self {
             lookups: [
                 lookup(0.0),
                 lookup(1.0).into("point_shares", SHARES),
                 lookup(2.0).into("point_shares", SHARES),
                 lookup(1.0).into("last_piece", weighted()),
-                lookup(1.0).into("last_piece", VisibilityTarget::FORMAT),
+                lookup_of(1.0, &of_two).into("both_ends", VisibilityTarget::FORMAT),
             ],
             piece: piece.pipeline(gpu),
             own,
+            of_two,
             both,
             seen: None,
         }
     }
 
-    /// The look-up of point `i` of so many.
-    pub fn of(&mut self, i: usize, count: usize) -> &mut Lookup {
-        &mut self.lookups[Role::of(i, count) as usize]
+    /// The look-up of a point.
+    pub fn of(&mut self, role: Role) -> &mut Lookup {
+        &mut self.lookups[role as usize]
     }
 
     /// What the point before point `i` sees of each pixel; `None` where there is no room for it.
@@ -122,6 +137,23 @@ impl Pipelines {
         bind(gpu, "shares", &self.own, &[uniform.as_entire_binding(), view, before])
     }
 
+    /// The same for both of two points, for the first one's shares and what belongs to the other.
+    pub fn bind_both(&self, gpu: &Gpu, uniform: &wgpu::Buffer, [first, other]: [&Made; 2]) -> wgpu::BindGroup {
+        let whole = |texture: &wgpu::Texture| {
+            texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2Array),
+                ..Default::default()
+            })
+        };
+        let views = [&first.shares, &other.shares, &other.maps].map(whole);
+        // No point before is read.
+        let before = layer_view(&first.shares, 0);
+        let textures = [&views[0], &before, &views[1], &views[2]].map(wgpu::BindingResource::TextureView);
+        let [own, before, shares, maps] = textures;
+        let resources = [uniform.as_entire_binding(), own, before, shares, maps];
+        bind(gpu, "shares of both ends", &self.of_two, &resources)
+    }
+
     /// Makes room for what points see in a picture of this size.
     pub fn make_room(&mut self, gpu: &Gpu, size: (u32, u32)) {
         if self.seen.as_ref().is_some_and(|seen| seen.size == size) {
@@ -139,27 +171,27 @@ impl Pipelines {
     pub fn record(
         &self,
         passes: &mut Passes<'_>,
-        receivers: &Receivers,
+        lit: Lit<'_>,
         points: &[Point],
         visibility: &VisibilityTarget,
     ) -> u32 {
         if let [point] = points {
             let mut pass = passes.render("visibility", &[visibility.overwrite()], None);
-            let Some(made) = point.made() else { return 0 };
-            return self.lookups[0].draw(&mut pass, receivers, &point.maps.input, Some(&made.look_up));
+            let made = point.made();
+            return made.map_or(0, |made| self.draw(&mut pass, lit, Role::Alone, (point, &made.look_up)));
         }
-        let mut draws = 0;
+        let (mut draws, count) = (0, points.len());
         for (i, point) in points.iter().enumerate() {
-            let weight = weight(i.saturating_sub(1), points.len() - 1);
+            let weight = weight(i.saturating_sub(1), count - 1);
             let load = if i == 1 { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
             let visibility = attachment(&visibility.view, load);
-            if let Some(made) = point.made().filter(|_| i + 1 == points.len()) {
+            if let Some(made) = point.made().filter(|_| i + 1 == count) {
                 let mut pass = passes.render("visibility", &[visibility], None);
                 set_weight(&mut pass, weight);
-                let lookup = &self.lookups[Role::of(i, points.len()) as usize];
-                draws += lookup.draw(&mut pass, receivers, &point.maps.input, Some(&made.look_up));
+                let (lookup, more) = (&self.lookups[Role::Last as usize], Some(&made.look_up));
+                draws += lookup.draw(&mut pass, lit.receivers, &point.maps.input, more);
             } else {
-                draws += self.record_point(passes, receivers, (point, i, points.len()));
+                draws += self.record_point(passes, lit, (point, i, count));
                 if i > 0 {
                     draws += self.record_piece(passes, i - 1, visibility, weight);
                 }
@@ -168,20 +200,47 @@ impl Pipelines {
         draws
     }
 
-    /// A point without maps is seen by all.
+    /// Looks up both of two points at once; `first` has joined the other one.
+    pub fn record_both(
+        &self,
+        passes: &mut Passes<'_>,
+        lit: Lit<'_>,
+        (first, both): (&Point, &wgpu::BindGroup),
+        visibility: &VisibilityTarget,
+    ) -> u32 {
+        let mut pass = passes.render("visibility", &[visibility.overwrite()], None);
+        self.draw(&mut pass, lit, Role::OfTwo, (first, both))
+    }
+
+    /// A point without maps is seen by all, and so is every point where the light lights nothing.
     fn record_point(
         &self,
         passes: &mut Passes<'_>,
-        receivers: &Receivers,
+        lit: Lit<'_>,
         (point, i, count): (&Point, usize, usize),
     ) -> u32 {
         let all = wgpu::LoadOp::Clear(wgpu::Color { r: 0.5, g: 0.5, b: 0.5, a: 0.5 });
         // What the next point is before.
         let Some(target) = self.before(i + 1) else { return 0 };
         let mut pass = passes.render("visibility", &[attachment(target, all)], None);
-        let Some(made) = point.made() else { return 0 };
-        let lookup = &self.lookups[Role::of(i, count) as usize];
-        lookup.draw(&mut pass, receivers, &point.maps.input, Some(&made.look_up))
+        let role = Role::of(i, count);
+        point.made().map_or(0, |made| self.draw(&mut pass, lit, role, (point, &made.look_up)))
+    }
+
+    /// A look-up where the light can light anything.
+    fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        lit: Lit<'_>,
+        role: Role,
+        (point, more): (&Point, &wgpu::BindGroup),
+    ) -> u32 {
+        let [x, y, width, height] = lit.pixels;
+        if width == 0 || height == 0 {
+            return 0;
+        }
+        pass.set_scissor_rect(x, y, width, height);
+        self.lookups[role as usize].draw(pass, lit.receivers, &point.maps.input, Some(more))
     }
 
     /// Adds up what both ends of a piece see.
@@ -223,11 +282,12 @@ fn weighted() -> wgpu::ColorTargetState {
 }
 
 impl PointLookup {
-    /// From positions relative to the eye; `layers` of shares for each neighbour.
-    pub(super) fn of(here: DVec3, neighbours: impl Iterator<Item = DVec3>, layers: u32) -> Self {
+    /// From a position relative to the eye and the ways from there to its neighbours; `layers` of
+    /// shares for each of them.
+    pub(super) fn of(here: DVec3, ways: impl Iterator<Item = DVec3>, layers: u32) -> Self {
         let mut lookup = Self { here: here.as_vec3().to_array(), layers, ..Self::default() };
-        for (place, neighbour) in lookup.neighbours.iter_mut().zip(neighbours) {
-            *place = neighbour.as_vec3().extend(0.0).to_array();
+        for (neighbour, way) in lookup.neighbours.iter_mut().zip(ways) {
+            *neighbour = way.as_vec3().extend(0.0).to_array();
         }
         lookup
     }

@@ -27,7 +27,7 @@ pub(super) struct Point {
 
 /// What goes with the textures of the maps.
 pub(super) struct Made {
-    maps: wgpu::Texture,
+    pub maps: wgpu::Texture,
     /// For `edges = map`: the steps in them, and what skins are made of.
     pub steps: Option<(StepList, wgpu::BindGroup)>,
     /// To the next point, if there is one, and to the one before.

@@ -2,7 +2,7 @@
 
 use super::borders::{Borders, Job, neighbours};
 use super::light::points;
-use super::lookup::Pipelines;
+use super::lookup::{Lit, Pipelines, Role};
 use super::options;
 use super::pictures::{Skinned, pictures};
 use super::point::Point;
@@ -13,6 +13,13 @@ use crate::{Error, Gpu, Lent, passes::Passes, view::View, visibility::Visibility
 use umbrage_core::light_view::LightView;
 use umbrage_core::{Light, LightShape};
 
+/// What a look-up of two points at once binds.
+struct Both {
+    /// Whose shares it was made for.
+    of: [wgpu::Texture; 2],
+    bind_group: wgpu::BindGroup,
+}
+
 /// See the module above.
 pub(super) struct LinearLight {
     settings: options::LinearLight,
@@ -22,6 +29,10 @@ pub(super) struct LinearLight {
     shapes: Vec<LightShape>,
     points: Vec<Point>,
     skinned: Skinned,
+    /// The pixels that the light can light: the first, and how many.
+    lit: [u32; 4],
+    /// For a look-up of two points at once.
+    both: Option<Both>,
     draws: u32,
 }
 
@@ -35,8 +46,47 @@ impl LinearLight {
             shapes: Vec::new(),
             points: Vec::new(),
             skinned: Skinned::default(),
+            lit: [0; 4],
+            both: None,
             draws: 0,
         })
+    }
+
+    /// Makes room for look-ups: of two points at once where their maps are alike, else of one after
+    /// the other.
+    fn look_up(&mut self, gpu: &Gpu, view: &View<'_>) {
+        let count = self.points.len();
+        let at_once = match &mut self.points[..] {
+            [first, other] if first.maps.input.joins(&other.maps.input) => {
+                first.maps.input.join(&other.maps.input);
+                true
+            }
+            _ => false,
+        };
+        if count > 1 && !at_once {
+            self.pipelines.make_room(gpu, view.receivers.size);
+        }
+        for (i, point) in self.points.iter_mut().enumerate() {
+            if count == 2 && !at_once {
+                let light = Light { shape: self.shapes[i].clone(), ..view.light.clone() };
+                point.maps.look_up(gpu, &View { light: &light, ..*view }, self.pipelines.of(Role::of(i, count)));
+            }
+            point.make_room(gpu, &self.borders, &self.pipelines, (i, count));
+        }
+        let made = match &self.points[..] {
+            [first, other] if at_once => first.made().zip(other.made()).map(|made| (first, made)),
+            _ => None,
+        };
+        self.both = made.map(|(first, (own, others))| {
+            let of = [own.shares.clone(), others.shares.clone()];
+            match self.both.take().filter(|both| both.of == of) {
+                Some(both) => both,
+                None => {
+                    let bind_group = self.pipelines.bind_both(gpu, &first.look_up_uniform, [own, others]);
+                    Both { of, bind_group }
+                }
+            }
+        });
     }
 
     /// What shaders read of each point.
@@ -46,8 +96,8 @@ impl LinearLight {
         for (i, point) in self.points.iter_mut().enumerate() {
             let frame = point.maps.frame();
             point.data = LightPoint::of(&frame.views, frame.size, places[i], origin, &receivers);
-            let from_eye = neighbours(i, places.len()).map(|j| places[j] - view.camera.eye);
-            point.look_up_data = PointLookup::of(places[i] - view.camera.eye, from_eye, frame.layers.count());
+            let ways = neighbours(i, places.len()).map(|j| places[j] - places[i]);
+            point.look_up_data = PointLookup::of(places[i] - view.camera.eye, ways, frame.layers.count());
         }
     }
 
@@ -90,21 +140,20 @@ impl LinearLight {
 impl Technique for LinearLight {
     fn prepare_view(&mut self, gpu: &Gpu, view: &View<'_>, _: InOrder) -> Result<(), Error> {
         let apart_m = points(&view.light.shape, self.settings.samples, &mut self.shapes);
+        self.lit = view.lit_pixels();
         let setup = self.settings.setup();
         self.points.truncate(self.shapes.len());
         self.points.resize_with(self.shapes.len(), || Point::new(gpu, &setup));
         let count = self.points.len();
         if count > 1 {
-            self.pipelines.make_room(gpu, view.receivers.size);
             self.skinned.make_room(gpu, self.settings.size);
         }
-        for (i, (point, shape)) in self.points.iter_mut().zip(&self.shapes).enumerate() {
-            let light = Light { shape: shape.clone(), ..view.light.clone() };
-            let seen = View { light: &light, ..*view };
-            let lookup = self.pipelines.of(i, count);
-            point.maps.prepare(gpu, &seen, apart_m, lookup);
-            point.make_room(gpu, &self.borders, &self.pipelines, (i, count));
+        for (i, point) in self.points.iter_mut().enumerate() {
+            let role = if count == 2 { Role::OfTwo } else { Role::of(i, count) };
+            let light = Light { shape: self.shapes[i].clone(), ..view.light.clone() };
+            point.maps.prepare(gpu, &View { light: &light, ..*view }, apart_m, self.pipelines.of(role));
         }
+        self.look_up(gpu, view);
         self.place(view);
         if count > 1 {
             self.borders.prepare(gpu, view, &self.shapes, &mut self.points)?;
@@ -127,7 +176,11 @@ impl Technique for LinearLight {
             self.draws += point.maps.record(passes, view.casters);
         }
         self.draws += self.record_shares(passes, view);
-        self.draws += self.pipelines.record(passes, view.receivers, &self.points, visibility);
+        let lit = Lit { receivers: view.receivers, pixels: self.lit };
+        self.draws += match &self.both {
+            Some(both) => self.pipelines.record_both(passes, lit, (&self.points[0], &both.bind_group), visibility),
+            None => self.pipelines.record(passes, lit, &self.points, visibility),
+        };
         Ok(())
     }
 
@@ -170,6 +223,8 @@ impl Inside for LinearLight {
             "skins" => Some(4 + 2),
             // The receiver, its texel's depth, and a share for each neighbour; or for one, what the
             // point before sees, and what is blended over.
+            // The receiver, and a texel's depth and share from both ends.
+            "visibility" if self.both.is_some() => Some(RECEIVER_BYTES + 2 * (4 + 2)),
             "visibility" => Some(RECEIVER_BYTES + 4 + 2 + 4 + 2),
             // What both ends see, and what is blended over.
             "pieces" => Some(2 * 4 + 2),

@@ -36,7 +36,7 @@ fn points(point: MapPoint, under: vec3f) -> vec3f {
 
 // Red, green, blue and yellow: which corner of its cell a silhouette pixel goes by.
 fn part(point: MapPoint, under: vec3f) -> vec3f {
-    let mine = part_of(cell_of(point), point.layer, true);
+    let mine = part_of(cell_of(point), point.layer, true).corner;
     let above = select(vec3f(0.8, 0.15, 0.1), vec3f(0.15, 0.6, 0.2), mine.y);
     let below = select(vec3f(0.15, 0.3, 0.85), vec3f(0.85, 0.75, 0.15), mine.w);
     return under + select(above, below, mine.z || mine.w);

@@ -19,18 +19,27 @@ fn cell_of(point: MapPoint) -> Cell {
     return Cell(vec2i(number), point.texel - 0.5 - number);
 }
 
-// Whether the receiver is lit by what each corner of the cell holds, its plane continued to there.
-fn lit_at_corners(point: MapPoint, cell: Cell) -> vec4<bool> {
+// How far the receiver is lit by what each corner of the cell holds, its plane continued to there.
+fn margins_at_corners(point: MapPoint, cell: Cell) -> vec4f {
     let middle = vec2f(cell.number + 1) / map.size;
     let gathered = textureGather(map_depth, plain, middle, point.layer);
     let corners = CORNERS;
-    return vec4<bool>(
-        is_lit(point, corners[0] - cell.place, depth_of(gathered.w, map.farthest)),
-        is_lit(point, corners[1] - cell.place, depth_of(gathered.z, map.farthest)),
-        is_lit(point, corners[2] - cell.place, depth_of(gathered.x, map.farthest)),
-        is_lit(point, corners[3] - cell.place, depth_of(gathered.y, map.farthest)),
+    return vec4f(
+        lit_margin(point, corners[0] - cell.place, depth_of(gathered.w, map.farthest), 0.0),
+        lit_margin(point, corners[1] - cell.place, depth_of(gathered.z, map.farthest), 0.0),
+        lit_margin(point, corners[2] - cell.place, depth_of(gathered.x, map.farthest), 0.0),
+        lit_margin(point, corners[3] - cell.place, depth_of(gathered.y, map.farthest), 0.0),
     );
 }
+
+fn lit_at_corners(point: MapPoint, cell: Cell) -> vec4<bool> {
+    return margins_at_corners(point, cell) >= vec4f(0.0);
+}
+
+// What rises no more than this above the receiver's plane, in texels, and hides it where no
+// silhouette is, is a ledge whose sides all face the light. Alpha masks have outlines without
+// silhouettes.
+const LEDGE: f32 = 2.0;
 
 // What the map of silhouettes has for a cell, nothing beyond its borders.
 fn key_at(number: vec2i, layer: u32) -> f32 {
@@ -52,21 +61,30 @@ fn across(a: vec2f, b: vec2f) -> f32 {
     return a.x * b.y - a.y * b.x;
 }
 
+// The corner that a receiver goes by, and whether its cell has a point of its own.
+struct Part {
+    corner: vec4<bool>,
+    has_point: bool,
+}
+
 // The corner whose part of the cell the receiver is in. Lines from the cell's own point to those of
 // its neighbours are what parts are divided by. Each part is two triangles: of the point, a
 // neighbour's point and the corner. A loop goes to the point, then around it from the left, since
 // drivers that mask branches do leave a loop, after one round: where all is decided it is one of a
 // cell that is always the same, whose point is in the caches.
-fn part_of(at: Cell, layer: u32, is_open: bool) -> vec4<bool> {
+fn part_of(at: Cell, layer: u32, is_open: bool) -> Part {
     let cell = Cell(select(vec2i(0), at.number, is_open), at.place);
     var own = vec2f(0.0);
+    var has_point = false;
     var step = vec2i(0);
     var corner = -1.0;
     var parts = vec4<bool>(false);
     // The first neighbour ends the last part.
     let points = select(1u, 6u, is_open);
     for (var i = 0u; i < points; i++) {
-        let place = point_beside(cell, layer, step);
+        let key = key_at(cell.number + step, layer);
+        let place = place_of(key) + vec2f(step);
+        has_point = select(has_point, key != 0.0, i == 0u);
         own = select(own, place, i == 0u);
         let way = cell.place - own;
         let beside = across(place - own, way);
@@ -77,13 +95,17 @@ fn part_of(at: Cell, layer: u32, is_open: bool) -> vec4<bool> {
         parts = select(parts, vec4<bool>(parts.yzw, beside >= 0.0 && corner < 0.0), begins);
         step = next;
     }
-    return parts.xywz;
+    return Part(parts.xywz, has_point);
 }
 
 fn lit_share(point: MapPoint, pixel: Pixel) -> f32 {
     let cell = cell_of(point);
-    let lit = lit_at_corners(point, cell);
+    let margins = margins_at_corners(point, cell);
+    let lit = margins >= vec4f(0.0);
     let is_open = any(lit) && !all(lit);
     let part = part_of(cell, point.layer, is_open);
-    return select(0.0, 1.0, select(lit.x, any(lit & part), is_open));
+    // Where no silhouette is, what hides the receiver a little belongs to its own surface.
+    let ledge = map.bias * map.outlined * LEDGE * texel_depth(point) * abs(point.across);
+    let is_ledge = !part.has_point && all(margins >= vec4f(-ledge));
+    return select(0.0, 1.0, select(lit.x, any(lit & part.corner) || is_ledge, is_open));
 }
