@@ -1,6 +1,8 @@
 //! Depth maps with silhouettes.
 
 use crate::common::{against_truth, gpu, pairs, renderer, scene, visibility};
+use umbrage::core::glam::{DAffine3, DMat3, DVec3};
+use umbrage::core::{Camera, Light, LightShape, Material, Scene, primitive};
 use umbrage::find;
 use umbrage_renderer::{LightPass, Renderer};
 
@@ -29,6 +31,39 @@ fn two_edges_in_a_texel_are_no_worse_than_none_until_all_texels_have_them() {
         assert!(with.mae < at_most * without.mae, "{size}: {} and {} without", with.mae, without.mae);
         assert_eq!(with.not_finite, 0);
     }
+}
+
+/// A wall of boards, each farther out than the one below, whose ledges all face a light from below.
+fn ledges() -> Scene {
+    let light = LightShape::Point { position: DVec3::new(0.4, -1.5, 4.0) };
+    let mut scene = Scene { lights: vec![Light::new(light)], ..Scene::default() };
+    let (cube, material) = (scene.add_mesh(primitive::cube()), scene.add_material(Material::default()));
+    for i in 0..10 {
+        let out = 0.03 * f64::from(i);
+        let matrix3 = DMat3::from_diagonal(DVec3::new(8.0, 0.22, 0.5 + out));
+        let translation = DVec3::new(0.0, 0.11 + 0.2 * f64::from(i), 0.5 * (out - 0.5));
+        scene.place(cube, material, DAffine3 { matrix3, translation });
+    }
+    scene.camera =
+        Camera { eye: DVec3::new(0.3, 1.0, 4.0), target: DVec3::new(0.0, 1.0, 0.0), fov_y_deg: 12.0, ..scene.camera };
+    scene
+}
+
+#[test]
+fn ledges_narrower_than_texels_that_face_the_light_are_no_shadows() {
+    let gpu = gpu();
+    let mut scene = ledges();
+    let score = |scene: &Scene, id, set| against_truth(&gpu, scene, 0, id, set, SIZE, 1);
+    let [with, without] = ["silhouette-map", "shadow-map"].map(|id| score(&scene, id, "size=64").false_shadow);
+    assert!(with == 0.0 && without > 1e-3, "{with}, {without} without silhouettes");
+    // What stands out of the wall has a shadow all the same, from the wall on.
+    for (y, width) in [(0.85, 0.3), (1.1, 0.1)] {
+        let matrix3 = DMat3::from_diagonal(DVec3::new(width, 0.05, 1.0));
+        scene.place(0, 0, DAffine3 { matrix3, translation: DVec3::new(0.1, y, 0.0) });
+    }
+    let [none, with, without] = [("none", ""), ("silhouette-map", "size=64"), ("shadow-map", "size=64")]
+        .map(|(id, set)| score(&scene, id, set).mae);
+    assert!(with < 0.1 * without && without < 0.2 * none, "{with}, {without} without silhouettes, {none} with none");
 }
 
 #[test]
