@@ -36,8 +36,8 @@ fn counted(found: f32) -> f32 {
     return select(found, 0.5, found > 1.0);
 }
 
-// How far a point is over the receiver's plane, and how far a neighbour is under that in the plane's
-// direction; the normal's length counts.
+// How far a point is over the receiver's plane, and how much less a neighbour is, both times the
+// length of the normal.
 struct Rise {
     above: f32,
     below: f32,
