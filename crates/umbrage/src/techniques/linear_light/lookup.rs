@@ -213,12 +213,7 @@ impl Pipelines {
     }
 
     /// A point without maps is seen by all, and so is every point where the light lights nothing.
-    fn record_point(
-        &self,
-        passes: &mut Passes<'_>,
-        lit: Lit<'_>,
-        (point, i, count): (&Point, usize, usize),
-    ) -> u32 {
+    fn record_point(&self, passes: &mut Passes<'_>, lit: Lit<'_>, (point, i, count): (&Point, usize, usize)) -> u32 {
         let all = wgpu::LoadOp::Clear(wgpu::Color { r: 0.5, g: 0.5, b: 0.5, a: 0.5 });
         // What the next point is before.
         let Some(target) = self.before(i + 1) else { return 0 };
