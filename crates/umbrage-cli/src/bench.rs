@@ -6,9 +6,10 @@ use crate::{
     bars::Bars,
     say,
 };
-use anyhow::Result;
+use anyhow::{Context as _, Result};
 use clap::Args;
-use umbrage_report::{Bench as Plan, Moving, Way};
+use std::path::{Path, PathBuf};
+use umbrage_report::{Bench as Plan, Earlier, Moving, Way};
 
 /// Measures techniques: GPU time of each pass, frame, draws, triangles, memory, against the floor
 /// of the same run
@@ -21,6 +22,7 @@ Examples:
   umbrage bench atrium --techniques volume,volume:extrude=cpu --moving lights --lights-together
   umbrage bench city --light 0 --techniques shadow-map,pcf --path strafe
   umbrage bench city:62.5 --light 0 --techniques shadow-map --churn 100
+  umbrage bench atrium --vs earlier.json
 
 Techniques take turns frame by frame. `floor` is one full-screen pass that reads depth and writes visibility; \
 `bare-minimum` is a depth-only pass into a map of the same size, or into as many as there are splits, and a full-screen pass with one look-up.
@@ -65,6 +67,9 @@ pub struct Bench {
     /// Count fragments in one more frame, and the bytes that they move
     #[arg(long)]
     bytes: bool,
+    /// Set the times beside those of an earlier run, whose JSON this is
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["json", "csv"])]
+    vs: Option<PathBuf>,
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = args::size)]
     size: Size,
@@ -83,6 +88,7 @@ impl Bench {
     pub fn run(self, context: &Context<'_>) -> Result<()> {
         let choices = self.what.choices(context.registry)?;
         let scenes = self.what.scenes()?;
+        let earlier = self.vs.as_deref().map(earlier).transpose()?;
         let gpu = self.adapter.gpu()?;
         let plan = Plan {
             scenes,
@@ -103,6 +109,13 @@ impl Bench {
             (true, _) => say::json(&report.json()),
             (_, true) => say::text(&report.csv()),
             _ => say::text(&report.tables()),
-        }
+        }?;
+        earlier.map_or(Ok(()), |earlier| say::text(&report.versus(&earlier)))
     }
+}
+
+/// Reads an earlier run before this one takes its time.
+fn earlier(path: &Path) -> Result<Earlier> {
+    let text = std::fs::read_to_string(path).with_context(|| format!("can't read {}", path.display()))?;
+    Earlier::read(&text).with_context(|| path.display().to_string())
 }

@@ -55,7 +55,7 @@ not_in_browsers! {
     mod truth;
     mod way;
 
-    pub use bench::{Bench, BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene, BenchTraffic};
+    pub use bench::{Bench, BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene, BenchTraffic, Earlier, NoBenchmark};
     pub use column::{COLUMNS, Column, RADIANCE_COLUMNS};
     pub use compare::{Compare, Outcome};
     pub use html::page;

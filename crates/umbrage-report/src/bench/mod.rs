@@ -7,6 +7,8 @@ pub(crate) mod record;
 mod run;
 mod runner;
 mod table;
+mod versus;
 
 pub use record::{BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene, BenchTraffic};
 pub use run::Bench;
+pub use versus::{Earlier, NoBenchmark};

@@ -78,7 +78,7 @@ fn table(scene: &BenchScene, light: &BenchLight, on_path: bool) -> Table {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::{
         bench::record::{BenchCost, BenchPass, BenchResult},
@@ -91,7 +91,7 @@ mod tests {
     use std::collections::BTreeMap;
     use umbrage::Owner;
 
-    fn report() -> BenchReport {
+    pub fn report() -> BenchReport {
         let spread = Spread { median: 2.0, min: 1.0, max: 1.0 / 3.0 };
         let cost = BenchCost {
             passes: vec![BenchPass { owner: Owner::Light(0), pass: "map".into(), time_ms: spread }],
