@@ -102,7 +102,9 @@ fn change_list(dice: &mut Dice, values: &mut Vec<Value>) {
         0 if !values.is_empty() => drop(values.remove(at)),
         1 if !values.is_empty() => values.push(values[at].clone()),
         2 if !values.is_empty() => {
-            let times = dice.choose(&[10, 100, 2000]).unwrap_or(10);
+            // What has been repeated before would fill the memory.
+            let most = crate::LARGEST / values[at].to_string().len().max(1);
+            let times = dice.choose(&[10, 100, 2000]).unwrap_or(10).min(most);
             values.extend(vec![values[at].clone(); times]);
         }
         3 => values.clear(),

@@ -38,8 +38,11 @@ impl Watch {
             loop {
                 std::thread::sleep(Duration::from_millis(20));
                 let since_ms = now.since_ms.load(Relaxed);
-                let is_late =
-                    since_ms != 0 && began.elapsed().saturating_sub(Duration::from_millis(since_ms)) > LONGEST;
+                // Between inputs nothing is read.
+                if since_ms == 0 {
+                    continue;
+                }
+                let is_late = began.elapsed().saturating_sub(Duration::from_millis(since_ms)) > LONGEST;
                 let what = match (is_late, memory_bytes()) {
                     (true, _) => format!("takes over {} s", LONGEST.as_secs()),
                     (_, Some(bytes)) if bytes > MOST_BYTES => format!("takes {} MiB", bytes >> 20),
