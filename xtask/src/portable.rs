@@ -35,11 +35,20 @@ pub fn run() -> Result<()> {
     // What is dead there belongs behind a condition.
     check.env("RUSTFLAGS", "-D warnings");
     shell::run(with_packages(check))?;
+    shell::run(alone())?;
     shell::run(rustup(&["toolchain", "install", &oldest, "--profile", "minimal"]))?;
     // rustup chooses the toolchain anew: cargo has named its own in the environment.
     let mut check = rustup(&["run", &oldest, "cargo", "check", "--no-default-features", "--features", "umbrage/mint"]);
     check.args(["--target-dir", "target/portable"]).args(QUICK).env_remove("CARGO").env_remove("RUSTC");
     shell::run(with_packages(check))
+}
+
+/// The library with none of its features, which nothing else of the workspace is content with.
+fn alone() -> Command {
+    let mut check = shell::cargo();
+    check.args(["check", "--package", "umbrage", "--no-default-features", "--target", BROWSER]);
+    check.args(["--target-dir", "target/portable"]).args(QUICK).env("RUSTFLAGS", "-D warnings");
+    check
 }
 
 fn with_packages(mut command: Command) -> Command {

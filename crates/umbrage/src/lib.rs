@@ -37,6 +37,7 @@
 //! | feature | what it brings |
 //! |---|---|
 //! | `native`, by default | back ends for desktops (Vulkan, Metal, DirectX 12, GL); outside of browsers `Gpu::adapters`, `Gpu::request` and their asynchronous twins, `Gpu::catch`, and what reads pictures back and waits: [`read`] |
+//! | `techniques`, by default | names for every technique in [`techniques()`], [`find`] and [`parse`]. Without it those have names that look depth maps up, and of the others the families that are features: `moment-maps` (vsm, evsm, msm, esm), `fitted-maps` (cascaded, psm, lispsm, plane-optimal), `projected` (projective, projective-fake), `volumes` (volume), `area-lights` (wedges, light-mask). Whoever names a technique by its type needs no feature for it; what has neither is no part of the program |
 //! | `mint` | matrices and vectors of [`core::glam`] from and into those of [`mint`](https://docs.rs/mint) |
 //!
 //! A host with a device of its own turns `native` off. In browsers WebGPU is there without any

@@ -42,11 +42,20 @@ impl Registry {
     /// # Errors
     /// [`Error::Unknown`] with the nearest id.
     pub fn find(&self, id: &str) -> Result<&'static TechniqueInfo, Error> {
-        self.techniques.iter().find(|t| t.id == id).copied().ok_or_else(|| Error::Unknown {
-            what: "technique",
-            name: id.into(),
-            nearest: nearest(id, self.techniques.iter().map(|t| t.id)),
-        })
+        self.techniques.iter().find(|t| t.id == id).copied().ok_or_else(|| self.unknown(id))
+    }
+
+    fn unknown(&self, id: &str) -> Error {
+        let what = "technique";
+        match built_in::LEFT_OUT.iter().find(|(module, _)| *module == id.replace('-', "_")) {
+            Some((_, feature)) => {
+                Error::Unknown { what, name: format!("{id}` without the feature `{feature}"), nearest: None }
+            }
+            None => {
+                let nearest = nearest(id, self.techniques.iter().map(|t| t.id));
+                Error::Unknown { what, name: id.into(), nearest }
+            }
+        }
     }
 
     /// Techniques that look up maps which others fit; with `warped` those that can do so where

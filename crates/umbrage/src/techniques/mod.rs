@@ -6,12 +6,16 @@
 
 use crate::technique::TechniqueInfo;
 
-/// Declares the modules of the techniques and lists them.
+/// Declares the modules of the techniques and lists them. A family that hosts may leave out of the
+/// list is a feature of the crate: what is neither in it nor named is nowhere in their program.
 macro_rules! techniques {
-    ($($id:ident,)*) => {
+    ($($(#[cfg(feature = $feature:literal)])? $id:ident,)*) => {
         $(pub mod $id;)*
         /// All that are built in, in the order in which they are best explained.
-        pub(crate) static BUILT_IN: &[&TechniqueInfo] = &[$(&$id::INFO,)*];
+        pub(crate) static BUILT_IN: &[&TechniqueInfo] = &[$($(#[cfg(feature = $feature)])? &$id::INFO,)*];
+        /// Modules of those that are left out, and the features that bring them.
+        pub(crate) static LEFT_OUT: &[(&str, &str)] =
+            &[$($(#[cfg(not(feature = $feature))] (stringify!($id), $feature),)?)*];
     };
 }
 
@@ -24,20 +28,33 @@ techniques![
     pcf_blur,
     pcss,
     pcss_jitter,
+    #[cfg(feature = "moment-maps")]
     vsm,
+    #[cfg(feature = "moment-maps")]
     evsm,
+    #[cfg(feature = "moment-maps")]
     msm,
+    #[cfg(feature = "moment-maps")]
     esm,
+    #[cfg(feature = "fitted-maps")]
     cascaded,
+    #[cfg(feature = "fitted-maps")]
     psm,
+    #[cfg(feature = "fitted-maps")]
     lispsm,
+    #[cfg(feature = "fitted-maps")]
     plane_optimal,
     linear_light,
     smoothies,
+    #[cfg(feature = "projected")]
     projective,
+    #[cfg(feature = "projected")]
     projective_fake,
+    #[cfg(feature = "volumes")]
     volume,
+    #[cfg(feature = "area-lights")]
     wedges,
+    #[cfg(feature = "area-lights")]
     light_mask,
 ];
 
