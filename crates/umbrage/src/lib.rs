@@ -56,6 +56,7 @@ mod casters;
 mod checked;
 mod compute;
 mod deliver;
+mod denoise;
 pub mod depth_maps;
 mod error;
 pub mod fullscreen;
@@ -89,6 +90,7 @@ pub use casters::{
     LentVertices, MaterialId, MatrixForm, MeshId, Needs, Placement, SeenCasters, TextureId, Vertices,
 };
 pub use deliver::{Coarse, Deliver, Upsample};
+pub use denoise::Denoise;
 pub use error::{Error, nearest};
 pub use gpu::{AdapterSummary, Gpu, PipelineKind, PipelineParts, RenderParts, StageParts};
 pub use inline::{Binding, Followed, Inline, Lent, Resource};
@@ -118,10 +120,12 @@ pub mod wgsl {
     pub use crate::shader::PACK_NORMAL;
 }
 
-/// Every shader of the library: those of the techniques, the adaptor, poses and the baselines.
+/// Every shader of the library: those of the techniques, the adaptor, the denoiser, poses and the
+/// baselines.
 pub fn shaders() -> Vec<Shader> {
     let own = techniques().iter().flat_map(|t| t.shaders);
     own.chain([&light_samples::SHADER])
+        .chain(denoise::SHADERS)
         .chain(casters::shaders())
         .chain(baseline::SHADERS)
         .chain(&resolve::SHADERS)

@@ -4,6 +4,7 @@ mod cache;
 mod cascaded;
 mod common;
 mod dark;
+mod denoise;
 mod edges_in_maps;
 mod filters;
 mod forward;

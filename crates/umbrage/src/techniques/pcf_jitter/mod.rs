@@ -4,6 +4,7 @@
 //! Sources: Uralsky, "Efficient Soft-Edged Shadows Using Pixel Shader Branching", 2005; ZA 3.4.
 
 use crate::casters::Needs;
+use crate::denoise::{Denoise, Grain, denoised};
 use crate::depth_maps::{
     Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, Noise, SHADERS, Storage, TESTS, TapStage, Taps,
 };
@@ -30,6 +31,9 @@ settings! {
         noise: Noise = Noise::Stratified,
         /// Width and height after which stratified and blue noise repeat.
         tile: u32 = 8, in 1..=32, unit "pixels",
+        /// What becomes of the grain: it stays, or pixels that show the same plane are averaged as
+        /// far as the penumbra is even.
+        denoise: Denoise = Denoise::Off,
     }
 }
 
@@ -74,6 +78,7 @@ impl Filter for PcfJitter {
         let constants = [("TAPS", f64::from(self.taps)), ("TESTS", f64::from(TESTS)), ("RADIUS", self.radius)];
         let stage = TapStage::disc(gpu, Taps::new(self.noise, self.tile, 0, self.taps));
         let reach = self.radius + 1.0;
-        Ok(Box::new(MapTechnique::staged(gpu, maps, &SHADER, reach, &constants, Some(Box::new(stage)))?))
+        let maps = MapTechnique::staged(gpu, maps, &SHADER, reach, &constants, Some(Box::new(stage)))?;
+        Ok(denoised(gpu, Box::new(maps), self.denoise, Grain::EveryLight))
     }
 }

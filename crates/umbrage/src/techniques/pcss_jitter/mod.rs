@@ -4,6 +4,7 @@
 //! Sources: ZA 4.4.1 and 4.4.3, and 3.5 (Fernando, "Percentage-Closer Soft Shadows", 2005).
 
 use crate::casters::Needs;
+use crate::denoise::{Denoise, Grain, denoised};
 use crate::depth_maps::{
     BOUNDS_SHADER, Cover, LAYER_NAMES, LIGHTS, Map, MapSetup, MapTechnique, Noise, SHADERS, Storage, TESTS, TapStage,
     Taps,
@@ -31,6 +32,9 @@ settings! {
         noise: Noise = Noise::Gradient,
         /// Width and height after which stratified and blue noise repeat.
         tile: u32 = 8, in 1..=32, unit "pixels",
+        /// What becomes of the grain: it stays, or pixels that show the same plane are averaged as
+        /// far as the penumbra is even.
+        denoise: Denoise = Denoise::Spatial,
     }
 }
 
@@ -78,6 +82,7 @@ impl Filter for PcssJitter {
         let maps = MapTechnique::staged(gpu, maps, &SHADER, 1.0, &constants, Some(Box::new(stage)))?;
         // Of the first phase the light's centre, of the second that, too, and all taps.
         let taps = u64::from(1 + self.search + 1 + self.taps);
-        Ok(Box::new(maps.soft().in_phases().reading(4 * taps + 2 * TapStage::BOUNDS_BYTES)))
+        let maps = maps.soft().in_phases().reading(4 * taps + 2 * TapStage::BOUNDS_BYTES);
+        Ok(denoised(gpu, Box::new(maps), self.denoise, Grain::SoftLights))
     }
 }
