@@ -18,6 +18,7 @@ Examples:
   umbrage compare primitives --techniques all -o out
   umbrage compare atrium city --techniques shadow-map,pcf:kernel=7 --samples 1024 -o out
   umbrage compare contact --techniques shadow-map,shadow-map:light-samples=64 --samples 64 -o out
+  umbrage compare contact --techniques shadow-map:light-samples=4:light-frames=64 --still 63 -o out
   umbrage compare boxes.scene.toml --techniques all --reference references -o out --json
 
 DIR gets report.json, index.html (open it in a browser) and pictures/. --reference takes a folder with NAME.lightK.visibility.png, NAME.lightK.mask.png and NAME.geometry.npz, NAME being that of the scene file.")]
@@ -41,6 +42,10 @@ pub struct Compare {
     /// Frames that times are medians of
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     frames: u32,
+    /// Frames in which nothing changes before the one that is scored, for techniques that get
+    /// better from frame to frame
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=10_000))]
+    still: u32,
     /// Folder to write to
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -67,6 +72,7 @@ impl Compare {
             reference: self.reference,
             truth_cache: args::truth_cache(self.truth_cache)?,
             frames: self.frames,
+            still: self.still,
             command: context.line.clone(),
         };
         let outcome = plan.run(&gpu, &Bars::default())?;

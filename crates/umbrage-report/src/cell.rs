@@ -28,6 +28,8 @@ pub(crate) struct Cell<'a> {
     pub light: usize,
     pub truth: &'a Truth,
     pub tracing: &'a Tracing,
+    /// Frames in which nothing changes, before the one that is scored.
+    pub still: u32,
 }
 
 /// A technique's last frame, held against the truth.
@@ -118,6 +120,10 @@ impl Cell<'_> {
     /// Measures up to `frames` of the technique on stage, and scores the last.
     pub(crate) fn scored(&self, renderer: &mut Renderer, frames: u32) -> Result<Scored, Error> {
         let frames = Frames::measure(renderer, &self.source.scene.camera, frames, TIME_LIMIT)?;
+        for _ in 0..self.still {
+            renderer.frame(&self.source.scene.camera)?;
+            renderer.wait()?;
+        }
         let found = match renderer.technique(0).map(Technique::answer).unwrap_or_default() {
             Answer::Visibility => self.visibility(renderer)?,
             Answer::Radiance => self.radiance(renderer)?,
@@ -309,7 +315,7 @@ mod tests {
         truth.radiance = Some(Image::filled(48, 36, [0.5; 3]));
         let choice = Choice::parse(&umbrage::Registry::default(), "none", &[]).unwrap();
         let run = |truth: &Truth, technique: Box<dyn Technique>| {
-            let cell = Cell { gpu: &gpu, source: &source, light: 0, truth, tracing: &tracing };
+            let cell = Cell { gpu: &gpu, source: &source, light: 0, truth, tracing: &tracing, still: 0 };
             let mut stage = Stage::new(&gpu, &source, (48, 36));
             let mut record = ResultRecord::of(&choice);
             let mut pictures = Pictures::default();

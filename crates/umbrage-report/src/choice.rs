@@ -35,6 +35,9 @@ impl RayTraced {
 /// The pseudo-parameter that averages a hard technique over points of the light.
 pub const LIGHT_SAMPLES: &str = "light-samples";
 
+/// The pseudo-parameter that spreads these points over so many frames, as many in each.
+pub const LIGHT_FRAMES: &str = "light-frames";
+
 /// A technique with checked settings.
 #[derive(Clone, Debug)]
 pub struct Choice {
@@ -44,6 +47,8 @@ pub struct Choice {
     pub settings: Settings,
     /// Points of the light to average over by brute force.
     pub light_samples: Option<u32>,
+    /// Frames that these are spread over, each with other points.
+    pub light_frames: Option<u32>,
     /// What its user should know: the name that it has now, where it was called by an old one.
     pub note: Option<String>,
     registry: Registry,
@@ -51,8 +56,8 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// The technique `id` of a registry with the parameters `set`, in which [`LIGHT_SAMPLES`] may
-    /// stand too.
+    /// The technique `id` of a registry with the parameters `set`, in which [`LIGHT_SAMPLES`] and
+    /// [`LIGHT_FRAMES`] may stand too.
     ///
     /// # Errors
     /// Names that are not known, with the nearest one, and values out of range.
@@ -66,11 +71,14 @@ impl Choice {
         }
         let info = registry.find(id)?;
         let (brute, set): (Vec<_>, Vec<_>) = set.iter().cloned().partition(|(name, _)| name == LIGHT_SAMPLES);
+        let (spread, set): (Vec<_>, Vec<_>) = set.into_iter().partition(|(name, _)| name == LIGHT_FRAMES);
         let settings = registry.settings(id, &set)?;
         let light_samples =
             brute.last().map(|(_, value)| parse_light_samples(registry, &settings, value)).transpose()?;
-        let changed = settings.changed().map(|(name, value)| (name.to_string(), value.to_string())).collect();
-        Ok(Self { info, settings, light_samples, note: None, registry: registry.clone(), changed })
+        let light_frames = spread.last().map(|(_, value)| parse_light_frames(light_samples, value)).transpose()?;
+        let changed = settings.changed().map(|(name, value)| (name.to_string(), value.to_string()));
+        let changed = changed.chain(light_frames.map(|n| (LIGHT_FRAMES.to_string(), n.to_string()))).collect();
+        Ok(Self { info, settings, light_samples, light_frames, note: None, registry: registry.clone(), changed })
     }
 
     /// Reads `id:name=value:name=value`; `set` holds what applies to the technique wherever it is
@@ -174,9 +182,10 @@ impl Choice {
     /// # Errors
     /// What the adapter can't do.
     pub fn make(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
-        Ok(match self.light_samples {
-            Some(n) => umbrage::light_samples(gpu, &self.settings, n)?,
-            None => self.settings.make(gpu)?,
+        Ok(match (self.light_samples, self.light_frames) {
+            (Some(n), Some(frames)) => umbrage::light_samples_over(gpu, &self.settings, n, frames)?,
+            (Some(n), None) => umbrage::light_samples(gpu, &self.settings, n)?,
+            (None, _) => self.settings.make(gpu)?,
         })
     }
 }
@@ -224,6 +233,15 @@ fn parse_light_samples(registry: &Registry, settings: &Settings, value: &str) ->
     number.ok_or_else(|| Error::Name(format!("{LIGHT_SAMPLES} `{value}` is not a number over 0")))
 }
 
+fn parse_light_frames(light_samples: Option<u32>, value: &str) -> Result<u32, Error> {
+    if light_samples.is_none() {
+        let text = format!("{LIGHT_FRAMES} spreads the points of {LIGHT_SAMPLES}; write {LIGHT_SAMPLES}=N before it");
+        return Err(Error::Name(text));
+    }
+    let number = value.parse().ok().filter(|n| (1..=64).contains(n));
+    number.ok_or_else(|| Error::Name(format!("{LIGHT_FRAMES} `{value}` is not a number from 1 to 64")))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -264,6 +282,15 @@ mod tests {
         let unused = [("pcf".into(), "size".into(), "512".into())];
         let list = list(&["none".into()], &unused).map(|l| l.len()).unwrap_err().to_string();
         assert!(list.contains("not among"), "{list}");
+    }
+
+    #[test]
+    fn points_are_spread_over_frames_where_there_are_some() {
+        let label = |text: &str| parse(text, &[]).map_or_else(|error| error.to_string(), |choice| choice.label());
+        let both = "shadow-map:light-frames=64:light-samples=4";
+        assert_eq!(label(both), both);
+        assert!(label("shadow-map:light-frames=8").contains("light-samples=N"));
+        assert!(label("shadow-map:light-samples=4:light-frames=65").contains("1 to 64"));
     }
 
     #[test]

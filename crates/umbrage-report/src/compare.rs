@@ -34,6 +34,9 @@ pub struct Compare {
     pub truth_cache: Option<PathBuf>,
     /// Frames to measure times over.
     pub frames: u32,
+    /// Frames in which nothing changes between these and the one that is scored, for techniques
+    /// that get better from frame to frame.
+    pub still: u32,
     /// The command line, for the record.
     pub command: Vec<String>,
 }
@@ -127,7 +130,7 @@ impl Run<'_> {
         let (scene, plan) = (&source.scene, self.plan);
         let kind = scene.lights[light].shape.kind();
         let truth = tracing.truth(plan.reference.as_deref(), source, light, plan.samples, self.progress)?;
-        let cell = Cell { gpu: self.gpu, source, light, truth: &truth, tracing };
+        let cell = Cell { gpu: self.gpu, source, light, truth: &truth, tracing, still: plan.still };
         let reference = cell.reference(place, &mut self.pictures)?;
         let what = format!("{}, light {light} ({}): techniques", scene.name, kind.name());
         self.progress.begin(&what, plan.choices.len() as u64);

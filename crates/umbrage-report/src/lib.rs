@@ -14,7 +14,7 @@ mod path;
 mod progress;
 mod source;
 
-pub use choice::{Choice, LIGHT_SAMPLES, RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced};
+pub use choice::{Choice, LIGHT_FRAMES, LIGHT_SAMPLES, RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced};
 pub use error::Error;
 pub use given::Given;
 pub use maps::Maps;

@@ -151,6 +151,7 @@ fn compare_goes_on_and_the_other_cells_are_right() {
         reference: None,
         truth_cache: None,
         frames: 1,
+        still: 0,
         command: Vec::new(),
     };
     let gpu = gpu();

@@ -30,6 +30,21 @@ impl Fullscreen<'_> {
         gpu: &Gpu,
         depth_stencil: Option<wgpu::DepthStencilState>,
     ) -> wgpu::RenderPipeline {
+        self.build(gpu, depth_stencil, &[])
+    }
+
+    /// One that writes to other targets, too, at the locations from 1 on.
+    pub(crate) fn beside(&self, gpu: &Gpu, others: &[wgpu::ColorTargetState]) -> wgpu::RenderPipeline {
+        self.build(gpu, None, others)
+    }
+
+    fn build(
+        &self,
+        gpu: &Gpu,
+        depth_stencil: Option<wgpu::DepthStencilState>,
+        others: &[wgpu::ColorTargetState],
+    ) -> wgpu::RenderPipeline {
+        let targets: Vec<_> = std::iter::once(&self.target).chain(others).map(|target| Some(target.clone())).collect();
         let groups: Vec<_> = self.groups.iter().map(|g| Some(*g)).collect();
         let layout = gpu.pipeline_layout(&groups);
         gpu.render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -51,7 +66,7 @@ impl Fullscreen<'_> {
                     constants: self.constants,
                     ..Default::default()
                 },
-                targets: &[Some(self.target.clone())],
+                targets: &targets,
             }),
             multiview_mask: None,
             cache: None,

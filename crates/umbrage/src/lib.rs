@@ -94,7 +94,7 @@ pub use denoise::Denoise;
 pub use error::{Error, nearest};
 pub use gpu::{AdapterSummary, Gpu, PipelineKind, PipelineParts, RenderParts, StageParts};
 pub use inline::{Binding, Followed, Inline, Lent, Resource};
-pub use light_samples::light_samples;
+pub use light_samples::{light_samples, light_samples_over};
 pub use passes::{Kept, Owner, Pass, PassFragments, PassTime, Passes, Recorder};
 pub use pool::{MapPool, PooledLight};
 pub use prepared::Prepared;

@@ -2,6 +2,7 @@
 //! any hard technique (ZA 1.4 and B.3; GG 9.2.1).
 
 use crate::{
+    denoise::{HISTORY_BYTES, HISTORY_PASS, MOST_FRAMES, MeanOverFrames},
     error::Error,
     fullscreen::{self, FLOATS, Fullscreen, additive, attachment, bind, layout},
     gpu::Gpu,
@@ -12,7 +13,7 @@ use crate::{
     view::View,
     visibility::VisibilityTarget,
 };
-use umbrage_core::{Light, light_view::LightView, sampling::hard_lights};
+use umbrage_core::{Light, LightShape, light_view::LightView, sampling::hard_lights};
 
 /// Shader of the adaptor, for the registry's tests.
 pub const SHADER: Shader = Shader::new("light samples", include_str!("wgsl/light_samples.wgsl"));
@@ -24,6 +25,12 @@ pub const SHADER: Shader = Shader::new("light samples", include_str!("wgsl/light
 /// [`Error::Unsupported`] for a technique that is not hard; [`Error::Size`] for 0 samples or more
 /// than 2048; what making the technique itself gives.
 pub fn light_samples(gpu: &Gpu, settings: &Settings, samples: u32) -> Result<Box<dyn Technique>, Error> {
+    let inner = checked(gpu, settings, samples)?;
+    Ok(Box::new(LightSamples::new(gpu, inner, samples)))
+}
+
+/// The technique that is to be averaged.
+fn checked(gpu: &Gpu, settings: &Settings, samples: u32) -> Result<Box<dyn Technique>, Error> {
     let info = settings.info();
     if !settings.is_hard() {
         let what = "brute force over light samples, since it is not a hard technique".into();
@@ -32,8 +39,28 @@ pub fn light_samples(gpu: &Gpu, settings: &Settings, samples: u32) -> Result<Box
     if samples == 0 || samples > MAX_SAMPLES {
         return Err(Error::Size { what: "light samples".into(), size: samples.into(), limit: MAX_SAMPLES.into() });
     }
-    let inner = settings.make(gpu)?;
-    Ok(Box::new(LightSamples::new(gpu, inner, samples)))
+    settings.make(gpu)
+}
+
+/// The same with `samples` other points of the light in each frame: the mean over `frames` frames
+/// is that of `samples` × `frames` points, as long as nothing changes. Where the camera begins to
+/// show a surface, and where the light or a caster between it and the surface moves, the mean
+/// starts anew: no trace of an old shadow is left in the next frame. It takes 8 bytes a pixel.
+///
+/// # Errors
+/// As [`light_samples`]; [`Error::Size`] for 0 frames or more than 64.
+pub fn light_samples_over(
+    gpu: &Gpu,
+    settings: &Settings,
+    samples: u32,
+    frames: u32,
+) -> Result<Box<dyn Technique>, Error> {
+    let inner = checked(gpu, settings, samples)?;
+    if frames == 0 || frames > MOST_FRAMES {
+        return Err(Error::Size { what: "light frames".into(), size: frames.into(), limit: MOST_FRAMES.into() });
+    }
+    let spread = Spread { frames, frame: 0, mean: MeanOverFrames::new(gpu, frames), is_soft: false };
+    Ok(Box::new(LightSamples { spread: Some(spread), ..LightSamples::new(gpu, inner, samples) }))
 }
 
 /// Half floats count whole numbers exactly up to here, and hard visibilities are whole.
@@ -50,7 +77,37 @@ struct LightSamples {
     /// Divides by the number of lights, which a hard light makes 1 whatever was asked for.
     mean: Option<(usize, wgpu::RenderPipeline)>,
     targets: Option<Targets>,
+    spread: Option<Spread>,
     stats: Stats,
+}
+
+/// Points of the light over several frames.
+struct Spread {
+    frames: u32,
+    /// Number of the next frame.
+    frame: u32,
+    mean: MeanOverFrames,
+    /// The light of the frame that was prepared has several points.
+    is_soft: bool,
+}
+
+impl Spread {
+    /// Of the points of all frames those of the next one: every `frames`-th, in an order in which
+    /// frames that follow one another are far apart.
+    fn points(&self, all: Vec<LightShape>) -> Vec<LightShape> {
+        let frames = self.frames as usize;
+        let first = (self.frame as usize).wrapping_mul(stride(frames)) % frames;
+        all.into_iter().skip(first).step_by(frames).collect()
+    }
+}
+
+/// The number nearest to the golden share of `n` that has no divisor in common with it.
+fn stride(n: usize) -> usize {
+    fn divisor(a: usize, b: usize) -> usize {
+        if b == 0 { a } else { divisor(b, a % b) }
+    }
+    let golden = (n as f64 * 0.618_034) as usize;
+    (golden.max(1)..=n.max(1)).find(|step| divisor(n, *step) == 1).unwrap_or(1)
 }
 
 /// One sample's visibility and the sum so far.
@@ -77,6 +134,7 @@ impl LightSamples {
             add,
             mean: None,
             targets: None,
+            spread: None,
             stats: Stats::default(),
         }
     }
@@ -94,7 +152,16 @@ impl LightSamples {
 
 impl Technique for LightSamples {
     fn prepare_view(&mut self, _: &Gpu, view: &View<'_>, _: InOrder) -> Result<(), Error> {
-        let shapes = hard_lights(&view.light.shape, view.textures, self.samples as usize);
+        let frames = self.spread.as_ref().map_or(1, |spread| spread.frames);
+        let mut shapes = hard_lights(&view.light.shape, view.textures, (self.samples * frames) as usize);
+        if let Some(spread) = &mut self.spread {
+            spread.is_soft = shapes.len() > 1;
+            if spread.is_soft {
+                shapes = spread.points(shapes);
+                spread.frame = spread.frame.wrapping_add(1);
+                spread.mean.prepare(view)?;
+            }
+        }
         self.lights.clear();
         self.lights.extend(shapes.into_iter().map(|shape| Light { shape, ..view.light.clone() }));
         if self.mean.as_ref().is_none_or(|(n, _)| *n != self.lights.len()) {
@@ -130,7 +197,15 @@ impl Technique for LightSamples {
             stats.bytes = one.bytes;
         }
         let load = wgpu::LoadOp::Clear(wgpu::Color::WHITE);
-        draw(passes, "mean of samples", mean, &targets.read_sum, &visibility.view, load);
+        let spread = self.spread.as_mut().filter(|spread| spread.is_soft);
+        let fresh = spread.as_ref().and_then(|spread| spread.mean.fresh()).unwrap_or(visibility);
+        draw(passes, "mean of samples", mean, &targets.read_sum, &fresh.view, load);
+        if let Some(spread) = spread {
+            spread.mean.record(passes, view, visibility);
+            stats.draws += 1;
+            stats.triangles += 1;
+            stats.bytes += spread.mean.bytes();
+        }
         stats.bytes += targets.one.bytes() + targets.sum.bytes();
         self.stats = stats;
         Ok(())
@@ -138,6 +213,11 @@ impl Technique for LightSamples {
 
     fn set(&mut self, gpu: &Gpu, settings: &Settings) -> Result<bool, Error> {
         self.inner.set(gpu, settings)
+    }
+
+    fn set_frame(&mut self, frame: u32) {
+        self.spread.iter_mut().for_each(|spread| spread.frame = frame);
+        self.inner.set_frame(frame);
     }
 
     fn draws_host_casters(&self) -> bool {
@@ -160,6 +240,7 @@ impl Inside for LightSamples {
     }
 
     fn forget(&mut self) {
+        self.spread.iter_mut().for_each(|spread| spread.mean.forget());
         self.inner.inside_mut().forget();
     }
 
@@ -177,7 +258,7 @@ impl Inside for LightSamples {
 
     fn reads(&self, pass: &str) -> Option<u64> {
         // One sample, and what it is added to.
-        let of_sums = [("add a sample", 4), ("mean of samples", 2)];
+        let of_sums = [("add a sample", 4), ("mean of samples", 2), (HISTORY_PASS, HISTORY_BYTES)];
         let own = of_sums.iter().find(|(name, _)| *name == pass).map(|(_, bytes)| *bytes);
         own.or_else(|| self.inner.inside().reads(pass))
     }

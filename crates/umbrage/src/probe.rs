@@ -54,6 +54,10 @@ impl Technique for Probe {
         Ok(true)
     }
 
+    fn set_frame(&mut self, frame: u32) {
+        self.note(&format!("frame {frame}"));
+    }
+
     fn draws_host_casters(&self) -> bool {
         true
     }
@@ -110,10 +114,11 @@ pub fn assert_forwards(wrap: impl Fn(&Gpu, Box<dyn Technique>) -> Box<dyn Techni
     let settings = find("none").expect("a technique").default_settings();
     assert!(wrapped.set(&gpu, &settings).expect("no error"), "settings are taken over");
     assert!(wrapped.draws_host_casters(), "casters of hosts are drawn");
+    wrapped.set_frame(7);
     wrapped.inside_mut().forget();
     wrapped.inside_mut().inspect(Some("probe"));
     let noted = calls.lock().expect("all calls are done").clone();
-    assert_eq!(noted, ["set", "forget", "inspect probe"]);
+    assert_eq!(noted, ["set", "frame 7", "forget", "inspect probe"]);
     let inside = wrapped.inside();
     assert_eq!(inside.light_views().iter().map(|view| view.size).collect::<Vec<_>>(), [7]);
     assert_eq!(inside.split_distances(), [3.0]);

@@ -85,6 +85,11 @@ pub trait Technique: Any + wgpu::WasmNotSend {
         Lent::refuse("this technique")
     }
 
+    /// Says which frame the next one is that is prepared, for techniques that spread work over
+    /// frames and choose taps or points of the light by its number. They count by themselves where
+    /// nobody says. After a cut of the camera hosts call [`Inside::forget`].
+    fn set_frame(&mut self, _frame: u32) {}
+
     /// True where it has casters drawn that a host draws itself, see
     /// [`HostCasters`](crate::HostCasters), or needs none; others refuse views with such casters.
     fn draws_host_casters(&self) -> bool {

@@ -45,7 +45,7 @@ impl LightRun<'_> {
     ) -> Result<SweepLight, Error> {
         let Self { gpu, source, light, tracing, truth, .. } = *self;
         let kind = source.light(light)?.shape.kind();
-        let cell = Cell { gpu, source, light, truth, tracing };
+        let cell = Cell { gpu, source, light, truth, tracing, still: 0 };
         let reference = cell.reference(place, pictures)?;
         let size = bare_size(plan.settings.iter().map(|setting| &setting.choice));
         let mut timing = Timing::new(&source.scene.camera, light, self.frames, size);

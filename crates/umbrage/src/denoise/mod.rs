@@ -1,6 +1,8 @@
 //! What takes the grain out of look-ups whose taps differ from pixel to pixel, for every technique
 //! that has such taps: it wraps the technique.
 
+mod history;
+mod movers;
 mod spatial;
 
 use crate::choices;
@@ -9,11 +11,12 @@ use crate::inline::Lent;
 use crate::shader::Shader;
 use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
 use crate::{Error, Gpu, Passes, Settings, View, VisibilityTarget};
+pub(crate) use history::{BYTES as HISTORY_BYTES, MOST_FRAMES, MeanOverFrames, PASS as HISTORY_PASS};
 use spatial::SpatialFilter;
 use umbrage_core::light_view::LightView;
 
 /// Shaders of the denoiser, for the registry's tests.
-pub(crate) const SHADERS: [&Shader; 1] = [&spatial::SHADER];
+pub(crate) const SHADERS: [&Shader; 2] = [&spatial::SHADER, &history::SHADER];
 
 choices! {
     /// What becomes of the grain that jittered taps leave.
@@ -22,6 +25,9 @@ choices! {
         Off = "off",
         /// Pixels that show the same plane are averaged as far as the penumbra is even.
         Spatial = "spatial",
+        /// That, and then the mean of up to 64 frames, each with other taps, at points where
+        /// nothing changes.
+        Temporal = "temporal",
     }
 }
 
@@ -43,8 +49,10 @@ const GRAIN: f32 = 0.05;
 pub(crate) fn denoised(gpu: &Gpu, inner: Box<dyn Technique>, denoise: Denoise, grain: Grain) -> Box<dyn Technique> {
     match denoise {
         Denoise::Off => inner,
-        Denoise::Spatial => {
-            Box::new(Denoised { inner, grain, filter: SpatialFilter::new(gpu, GRAIN), is_grainy: false })
+        Denoise::Spatial | Denoise::Temporal => {
+            let mean = (denoise == Denoise::Temporal).then(|| MeanOverFrames::new(gpu, MOST_FRAMES));
+            let filter = SpatialFilter::new(gpu, GRAIN);
+            Box::new(Denoised { inner, grain, filter, mean, frame: 0, is_grainy: false })
         }
     }
 }
@@ -54,14 +62,22 @@ struct Denoised {
     inner: Box<dyn Technique>,
     grain: Grain,
     filter: SpatialFilter,
+    mean: Option<MeanOverFrames>,
+    /// Number of the next frame: which taps it has.
+    frame: u32,
     /// The light of the frame that was prepared leaves grain.
     is_grainy: bool,
 }
 
 impl Technique for Denoised {
     fn prepare_view(&mut self, gpu: &Gpu, view: &View<'_>, order: InOrder) -> Result<(), Error> {
-        self.inner.prepare_view(gpu, view, order)?;
         self.is_grainy = self.grain == Grain::EveryLight || view.light.shape.kind().is_soft();
+        if let Some(mean) = self.mean.as_mut().filter(|_| self.is_grainy) {
+            mean.prepare(view)?;
+            self.inner.set_frame(self.frame);
+            self.frame = self.frame.wrapping_add(1);
+        }
+        self.inner.prepare_view(gpu, view, order)?;
         if self.is_grainy { self.filter.prepare(view) } else { Ok(()) }
     }
 
@@ -77,8 +93,19 @@ impl Technique for Denoised {
         };
         visibility.check(view.receivers)?;
         self.inner.record_visibility(passes, view, grainy, order)?;
-        self.filter.record(passes, view, visibility);
+        match &mut self.mean {
+            Some(mean) => {
+                self.filter.record(passes, view, mean.fresh().unwrap_or(visibility));
+                mean.record(passes, view, visibility);
+            }
+            None => self.filter.record(passes, view, visibility),
+        }
         Ok(())
+    }
+
+    fn set_frame(&mut self, frame: u32) {
+        self.frame = frame;
+        self.inner.set_frame(frame);
     }
 
     fn set(&mut self, gpu: &Gpu, settings: &Settings) -> Result<bool, Error> {
@@ -110,12 +137,14 @@ impl Technique for Denoised {
 impl Inside for Denoised {
     fn stats(&self) -> Stats {
         let stats = self.inner.inside().stats();
-        let own = u32::from(self.is_grainy);
+        let own = if self.is_grainy { 1 + u32::from(self.mean.is_some()) } else { 0 };
+        let bytes = self.filter.bytes() + self.mean.as_ref().map_or(0, MeanOverFrames::bytes);
         let (draws, triangles) = (stats.draws + own, stats.triangles + u64::from(own));
-        Stats { draws, triangles, bytes: stats.bytes + self.filter.bytes(), ..stats }
+        Stats { draws, triangles, bytes: stats.bytes + bytes, ..stats }
     }
 
     fn forget(&mut self) {
+        self.mean.iter_mut().for_each(MeanOverFrames::forget);
         self.inner.inside_mut().forget();
     }
 
@@ -132,7 +161,11 @@ impl Inside for Denoised {
     }
 
     fn reads(&self, pass: &str) -> Option<u64> {
-        if pass == spatial::PASS { Some(spatial::BYTES) } else { self.inner.inside().reads(pass) }
+        match pass {
+            spatial::PASS => Some(spatial::BYTES),
+            HISTORY_PASS => Some(HISTORY_BYTES),
+            _ => self.inner.inside().reads(pass),
+        }
     }
 
     fn inspect(&mut self, view: Option<&str>) {
@@ -151,6 +184,8 @@ mod tests {
 
     #[test]
     fn all_that_is_inside_a_technique_is_inside_the_denoised_one() {
-        assert_forwards(|gpu, inner| denoised(gpu, inner, Denoise::Spatial, Grain::SoftLights));
+        for denoise in [Denoise::Spatial, Denoise::Temporal] {
+            assert_forwards(|gpu, inner| denoised(gpu, inner, denoise, Grain::SoftLights));
+        }
     }
 }

@@ -204,6 +204,10 @@ impl Technique for MapTechnique {
         Ok(())
     }
 
+    fn set_frame(&mut self, frame: u32) {
+        self.input.set_frame(frame);
+    }
+
     fn draws_host_casters(&self) -> bool {
         true
     }

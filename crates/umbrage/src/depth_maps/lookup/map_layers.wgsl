@@ -84,7 +84,8 @@ struct MapLookup {
     offsets: vec2f,
     // 1 where the outlines of all casters are edges of triangles, 0 where there are alpha masks.
     outlined: f32,
-    pad: f32,
+    // Pixels by which the noise of taps is shifted in this frame: across, and 64 times those down.
+    jitter: f32,
     // Takes a receiver's place to the distance along the view, times w.
     view_distance: vec4f,
     // Distances at which splits end, and at which blending with the next one begins.

@@ -43,6 +43,8 @@ pub(crate) struct LookupInput {
     bias: Bias,
     uniforms: wgpu::Buffer,
     data: MapLookup,
+    /// Pixels by which the noise of taps is shifted: across, and 64 times those down.
+    jitter: f32,
     /// The pixels that the light can light: the first, and how many.
     pixels: [u32; 4],
     bind_group: Option<(wgpu::Texture, wgpu::BindGroup)>,
@@ -128,8 +130,10 @@ impl Lookup {
         input.current = None;
         input.pixels = view.lit_pixels();
         input.in_eye.data = MapLookup::new(view, maps, input.bias, Space::Eye);
+        input.in_eye.data.jitter = input.jitter;
         let Some(texture) = maps.texture.as_ref().filter(|_| !maps.views.is_empty()) else { return };
         input.data = MapLookup::new(view, maps, input.bias, Space::Ndc);
+        input.data.jitter = input.jitter;
         let perspective = maps.is_from_a_point();
         let linear = maps.is_linear;
         let round = is_round(&view.light.shape);
@@ -259,6 +263,7 @@ impl LookupInput {
             bias,
             uniforms: gpu.buffer("map lookup", &[MapLookup::default()], usage),
             data: MapLookup::default(),
+            jitter: 0.0,
             pixels: [0; 4],
             bind_group: None,
             current: None,
@@ -279,6 +284,14 @@ impl LookupInput {
     /// Reads another point's maps, too, see [`LookupInput::joins`].
     pub fn join(&mut self, other: &Self) {
         self.data.join(&other.data);
+    }
+
+    /// Which frame the next one is: each has other taps. They are shifted by whole pixels, so that
+    /// tiles of taps fit, and in an order that is evenly spread (Roberts, "The Unreasonable
+    /// Effectiveness of Quasirandom Sequences", 2018).
+    pub fn set_frame(&mut self, frame: u32) {
+        let shift = |step: f64| (64.0 * (f64::from(frame % 4096) * step).fract()).floor() as f32;
+        self.jitter = shift(0.754_877_666_246_692_7) + 64.0 * shift(0.569_840_290_998_053_2);
     }
 
     /// The uniforms of [`MapLookup`].

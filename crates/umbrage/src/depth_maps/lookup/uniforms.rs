@@ -28,7 +28,7 @@ shader_struct! {
         softness: f32,
         offsets: [f32; 2],
         outlined: f32,
-        pad: f32,
+        jitter: f32,
         view_distance: [f32; 4],
         splits: [[f32; 4]; 2],
         blends: [[f32; 4]; 2],

@@ -24,7 +24,8 @@ struct Taps {
 @group(2) @binding(0) var<storage, read> taps: Taps;
 
 // Index of a pixel's first tap.
-fn first_tap(at: vec2f) -> u32 {
+fn first_tap(pixel: vec2f) -> u32 {
+    let at = pixel + vec2f(map.jitter % 64.0, floor(map.jitter / 64.0));
     if taps.head.tile == 0u {
         return min(u32(gradient_noise(at) * f32(taps.head.sets)), taps.head.sets - 1u) * taps.head.count;
     }

@@ -31,8 +31,9 @@ settings! {
         noise: Noise = Noise::Stratified,
         /// Width and height after which stratified and blue noise repeat.
         tile: u32 = 8, in 1..=32, unit "pixels",
-        /// What becomes of the grain: it stays, or pixels that show the same plane are averaged as
-        /// far as the penumbra is even.
+        /// What becomes of the grain: it stays; or pixels that show the same plane are averaged as
+        /// far as the penumbra is even; or that, and then the mean of up to 64 frames, each with
+        /// other taps, at points where nothing changes.
         denoise: Denoise = Denoise::Off,
     }
 }

@@ -6,7 +6,7 @@ use crate::common::{gpu, pairs};
 use forward::{Frame, Host, NOTHING};
 use umbrage::core::glam::{DAffine3, DVec3};
 use umbrage::core::{Bounds, Camera, Image, Light, LightShape, Material, Scene, primitive};
-use umbrage::{Error, Followed, Gpu, Inline, Lent, Technique, find, techniques};
+use umbrage::{Error, Followed, Gpu, Inline, Lent, Technique, TechniqueInfo, find, techniques};
 use umbrage_reference::Tracer;
 
 /// A floor, a cube, a sphere above it, a card that leans, all around `origin`.
@@ -89,7 +89,10 @@ fn compare(host: &mut Host, camera: &Camera, light: &Light, technique: &mut Box<
 
 /// Every technique that lends, and what it is set to.
 fn settings() -> Vec<(&'static str, &'static str)> {
-    let all = techniques().iter().filter(|info| info.is_lent()).map(|info| (info.id, "size=256"));
+    // What a filter makes of the look-up's pixels afterwards is not in a host's shader.
+    let is_denoised = |info: &TechniqueInfo| info.params().iter().any(|param| param.name == "denoise");
+    let plain = |info: &TechniqueInfo| if is_denoised(info) { "size=256,denoise=off" } else { "size=256" };
+    let all = techniques().iter().filter(|info| info.is_lent()).map(|info| (info.id, plain(info)));
     let more = [
         ("pcf", "size=256,kernel=disc"),
         ("pcf", "size=256,kernel=bicubic"),
