@@ -79,7 +79,7 @@ fn across(shape: &LightShape, camera: &Camera, share: f64) -> LightShape {
     let by = camera.axes()[0] * (share * center.truncate().distance(camera.target));
     let mut shape = shape.clone();
     match &mut shape {
-        LightShape::Directional { .. } => {}
+        LightShape::Directional { .. } | LightShape::Environment(_) => {}
         LightShape::Line { from, to } => {
             *from += by;
             *to += by;
@@ -94,10 +94,13 @@ fn across(shape: &LightShape, camera: &Camera, share: f64) -> LightShape {
     shape
 }
 
-/// Parallel light turned by an angle in the plane that it and the camera's horizon span; other
-/// lights as they are.
+/// Parallel light turned by an angle in the plane that it and the camera's horizon span, the sky
+/// around the vertical; other lights as they are.
 fn turned(shape: &LightShape, camera: &Camera, angle: f64) -> LightShape {
     let mut shape = shape.clone();
+    if let LightShape::Environment(environment) = &mut shape {
+        environment.rotate_deg += angle.to_degrees();
+    }
     if let LightShape::Directional { direction, .. } = &mut shape {
         let axis = direction.cross(camera.axes()[0]).try_normalize();
         let axis = axis.unwrap_or_else(|| direction.try_normalize().unwrap_or(DVec3::Y).any_orthonormal_vector());

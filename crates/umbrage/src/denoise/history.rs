@@ -230,5 +230,7 @@ fn radius(light: &LightShape) -> f64 {
         LightShape::Ellipsoid { radii, .. } => radii.max_element(),
         LightShape::Rect { size, .. } => size.length() * 0.5,
         LightShape::Line { from, to } => from.distance(to) * 0.5,
+        // From all sides: whatever moves may hide some of it from any point.
+        LightShape::Environment(_) => 1e9,
     }
 }
