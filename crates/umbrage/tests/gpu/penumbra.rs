@@ -64,7 +64,9 @@ impl Case {
                 let up = to_unit.inverse().transpose() * up;
                 sphere_above_plane(DVec3::ZERO, up.normalize(), to_unit * (position - p), 1.0)
             }
-            LightShape::Point { .. } | LightShape::Spot { .. } => panic!("a hard light has no penumbra"),
+            LightShape::Point { .. } | LightShape::Spot { .. } | LightShape::Environment(_) => {
+                panic!("neither hard lights nor the sky have a penumbra here")
+            }
         }
     }
 
