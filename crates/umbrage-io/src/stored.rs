@@ -2,7 +2,12 @@
 //!
 //! A scene NAME is `scenes/NAME.scene.toml`, `NAME.geometry.npz` (what the camera sees), and for
 //! its K-th light `NAME.lightK.visibility.png` (16-bit grey, linear) and `NAME.lightK.mask.png`
-//! (white: scored).
+//! (white: scored). For its environment and B bounces it is `NAME.bouncesB.radiance.exr` with
+//! `NAME.mask.png` and `NAME.radiance.json`.
+
+mod radiance;
+
+pub use radiance::{StoredRadiance, list_radiance};
 
 use crate::error::{self, Error, Place};
 use crate::pictures::{load_grey, load_mask};

@@ -4,14 +4,16 @@
 //! A picture of the sky is equirectangular. Row 0 is +Y. With u from 0 (left) to 1 (right) and v
 //! from 0 (top) to 1 (bottom) its point shows the direction (sin θ sin φ, cos θ, −sin θ cos φ), θ =
 //! π v, φ = 2π (u − ½): the middle of the picture is −Z, three quarters is +X. See
-//! [`direction_of`].
+//! [`direction_of`]. Columns are spread evenly around, so that the middle of the first is half a
+//! column from the left side; rows from pole to pole, so that the first is seen at +Y itself and the
+//! last at −Y: [`place_of_pixel`]. In between both are interpolated.
 
 mod daylight;
 mod picture;
 mod sampler;
 
 pub use daylight::{Daylight, Sun};
-pub use picture::{SkyPicture, direction_of, place_of};
+pub use picture::{SkyPicture, direction_of, place_of, place_of_pixel};
 pub use sampler::EnvironmentSampler;
 
 use crate::image::Image;
@@ -143,15 +145,12 @@ impl Sky {
         }
     }
 
-    /// An equirectangular picture of the sky before it is turned, both sides over 0: every pixel is
-    /// the mean over its rectangle, and no light is lost, however small a sun is. A picture of this
-    /// size is given back as it is.
+    /// Means of the sky before it is turned over the rectangles of an equirectangular grid, both
+    /// sides over 0: no light is lost, however small a sun is. The sum over pixels times their
+    /// [`solid_angle`] is the integral over the sphere.
     pub fn picture(&self, width: u32, height: u32) -> Image<[f32; 3]> {
         let mut fine = 4;
         if let Self::Picture(picture) = self {
-            if picture.image().size() == (width, height) {
-                return picture.image().clone();
-            }
             let (w, h) = picture.image().size();
             fine = fine.max(2 * w.div_ceil(width.max(1)).max(h.div_ceil(height.max(1))));
         }

@@ -30,6 +30,13 @@ pub fn place_of(direction: DVec3) -> DVec2 {
     DVec2::new((phi / TAU + 0.5).clamp(0.0, 1.0), theta / PI)
 }
 
+/// The point (u, v) where the pixel of a picture of this size is seen as it is; between these points
+/// it is interpolated.
+pub fn place_of_pixel((width, height): (u32, u32), x: u32, y: u32) -> DVec2 {
+    let v = if height > 1 { f64::from(y) / f64::from(height - 1) } else { 0.5 };
+    DVec2::new((f64::from(x) + 0.5) / f64::from(width.max(1)), v)
+}
+
 impl SkyPicture {
     /// Takes a picture in linear RGB, row 0 at +Y.
     ///
@@ -61,16 +68,16 @@ impl SkyPicture {
         &self.image
     }
 
-    /// What is seen in a direction: interpolated between the middles of four pixels, around the
-    /// picture from its right to its left side; beyond the middles of the first and last row it is
-    /// what is there.
+    /// What is seen in a direction: interpolated between four pixels, and around the picture from
+    /// its right to its left side.
     pub fn radiance(&self, direction: DVec3) -> Vec3 {
         let Image { width, height, .. } = *self.image;
-        let place = place_of(direction) * DVec2::new(width.into(), height.into()) - 0.5;
+        let place = place_of(direction);
+        let place = DVec2::new(place.x * f64::from(width) - 0.5, place.y * f64::from(height - 1));
         let low = place.floor();
         let part = (place - low).as_vec2();
         let x = |x: f64| (x as i64).rem_euclid(i64::from(width)) as u32;
-        let y = |y: f64| (y.max(0.0) as u32).min(height - 1);
+        let y = |y: f64| (y as u32).min(height - 1);
         let at = |x, y| Vec3::from(self.image[(x, y)]);
         let (x0, x1, y0, y1) = (x(low.x), x(low.x + 1.0), y(low.y), y(low.y + 1.0));
         at(x0, y0).lerp(at(x1, y0), part.x).lerp(at(x0, y1).lerp(at(x1, y1), part.x), part.y)

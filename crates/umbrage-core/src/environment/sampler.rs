@@ -1,6 +1,6 @@
 //! Directions where the sky is bright.
 
-use super::{Environment, Sky, Sun, direction_of, place_of, solid_angle};
+use super::{Environment, Sky, Sun, direction_of, place_of, place_of_pixel, solid_angle};
 use glam::{DMat3, DVec2, DVec3, Vec3};
 use std::f64::consts::{PI, TAU};
 
@@ -139,28 +139,32 @@ fn weights(sky: &Sky, width: u32, height: u32) -> Vec<f64> {
         }
         return weights;
     };
-    // Each pixel is spread as interpolation spreads it: six eighths stay in its rectangle, one eighth
-    // goes to each side.
+    // Each pixel is spread about as interpolation spreads it.
     let image = picture.image();
-    let cell = |at: u32, of: u32, cells: u32| (u64::from(at) * u64::from(cells) / u64::from(of)) as usize;
-    for y in 0..image.height {
-        let solid_angle = solid_angle(image.width, image.height, y);
-        let rows = [y.saturating_sub(1), y, (y + 1).min(image.height - 1)].map(|y| cell(y, image.height, height));
-        for x in 0..image.width {
-            let light = luminance(Vec3::from(image[(x, y)])) * solid_angle;
-            let columns = [(x + image.width - 1) % image.width, x, (x + 1) % image.width];
-            for (row, down) in rows.into_iter().zip(SPREAD) {
-                for (column, across) in columns.into_iter().zip(SPREAD) {
-                    weights[row * width as usize + cell(column, image.width, width)] += light * down * across;
-                }
+    let pixel = DVec2::new(image.width.into(), image.height.saturating_sub(1).max(1).into()).recip();
+    for (i, color) in image.data.iter().enumerate() {
+        let place = place_of_pixel(image.size(), i as u32 % image.width, i as u32 / image.width);
+        let light = luminance(Vec3::from(*color));
+        for ((down, of_row), (right, of_column)) in
+            SPREAD.into_iter().flat_map(|row| SPREAD.map(|column| (row, column)))
+        {
+            let near = place + DVec2::new(right, down) * pixel;
+            if !(0.0..=1.0).contains(&near.y) {
+                continue;
             }
+            let x = (near.x.rem_euclid(1.0) * f64::from(width)) as u32;
+            let y = (near.y * f64::from(height)) as u32;
+            let cell = y.min(height - 1) * width + x.min(width - 1);
+            // At the poles themselves a row has no extent, and beside them it has.
+            let extent = (PI * near.y).sin().max(0.1 * pixel.y);
+            weights[cell as usize] += light * of_row * of_column * extent * pixel.x * pixel.y * TAU * PI;
         }
     }
     weights
 }
 
-/// Shares of the pixel before, the pixel itself and the one after.
-const SPREAD: [f64; 3] = [0.125, 0.75, 0.125];
+/// Places around a pixel, in pixels, and the shares of it there.
+const SPREAD: [(f64, f64); 3] = [(-0.5, 0.25), (0.0, 0.5), (0.5, 0.25)];
 
 fn luminance(color: Vec3) -> f64 {
     color.as_dvec3().dot(DVec3::new(0.2126, 0.7152, 0.0722))

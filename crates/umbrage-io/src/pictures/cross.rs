@@ -1,7 +1,7 @@
 //! Cubes that are unfolded into a cross.
 
 use umbrage_core::Image;
-use umbrage_core::environment::direction_of;
+use umbrage_core::environment::{direction_of, place_of_pixel};
 use umbrage_core::glam::{DVec2, DVec3, Vec3};
 
 /// A face of the cube around the eye: the way to its middle, and what is to the right and down
@@ -30,10 +30,10 @@ pub(crate) fn equirectangular_of_cross(cross: &Image<[f32; 3]>) -> Option<Image<
     let (width, height) = (4 * side, 2 * side);
     let size = DVec2::new(width.into(), height.into());
     Some(Image::from_fn(width, height, |x, y| {
-        let corner = DVec2::new(x.into(), y.into());
-        let parts = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
-        let sum: Vec3 =
-            parts.map(|p| seen(cross, &faces, side, direction_of((corner + DVec2::from(p)) / size))).into_iter().sum();
+        let middle = place_of_pixel((width, height), x, y);
+        let parts = [(-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25)].map(DVec2::from);
+        let directions = parts.map(|part| direction_of((middle + part / size).clamp(DVec2::ZERO, DVec2::ONE)));
+        let sum: Vec3 = directions.map(|direction| seen(cross, &faces, side, direction)).into_iter().sum();
         (sum * 0.25).to_array()
     }))
 }

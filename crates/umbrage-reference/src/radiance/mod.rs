@@ -20,8 +20,6 @@ pub struct RadianceOptions {
     /// How often light is reflected before the surface that is seen reflects it: with 0 it comes
     /// from the environment alone. At most [`Self::MOST_BOUNCES`].
     pub bounces: u32,
-    /// Whether surfaces are shaded by their triangles' own normals instead of those of vertices.
-    pub flat: bool,
 }
 
 impl RadianceOptions {
@@ -30,9 +28,9 @@ impl RadianceOptions {
 }
 
 impl Default for RadianceOptions {
-    /// 256 paths, no bounce, normals of vertices.
+    /// 256 paths, no bounce.
     fn default() -> Self {
-        Self { samples: 256, bounces: 0, flat: false }
+        Self { samples: 256, bounces: 0 }
     }
 }
 
@@ -67,7 +65,8 @@ impl RadianceTruth {
 ///
 /// L(p) = base colour / π · ∫ L_i(ω) max(n·ω, 0) dω, with L_i the environment where the ray meets
 /// nothing, and else, while bounces are left, L of what it meets. Surfaces reflect on both sides,
-/// and n, the shading normal, is turned to where the light goes. The integral is drawn at once by
+/// and n, the shading normal, is turned to where the light goes: that of the vertices,
+/// interpolated, or the triangle's own where they have none. The integral is drawn at once by
 /// the cosine and by the brightness of the sky, weighed by the balance heuristic (Veach, Guibas,
 /// "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995), which has no bias.
 ///
@@ -78,7 +77,7 @@ impl RadianceTruth {
 /// scene.environment = Some(Environment::new(Sky::Constant(Vec3::ONE)));
 /// let tracer = Tracer::new(&scene);
 /// let geometry = tracer.geometry(&scene.camera, 8, 6);
-/// let options = RadianceOptions { samples: 16, bounces: 1, ..RadianceOptions::default() };
+/// let options = RadianceOptions { samples: 16, bounces: 1 };
 /// let truth = PathTracer::new(&tracer, &scene)?.radiance((&geometry, &scene.camera), &options, &|_, _| ())?;
 /// println!("{} %", 100.0 * truth.relative_error());
 /// # Ok::<(), String>(())
@@ -145,7 +144,7 @@ impl<'a> PathTracer<'a> {
                     let surface = geometry.surface(x, y).filter(|_| geometry.receives[(x, y)])?;
                     let pixel = DVec2::new(x.into(), y.into()) + 0.5;
                     let to_eye = -camera.ray(pixel, width, height);
-                    let point = self.surfaces.seen(surface, options.flat, to_eye);
+                    let point = self.surfaces.seen(surface, to_eye);
                     let seed = y.wrapping_mul(width).wrapping_add(x);
                     Some(Pixel::of((0..rounds).map(|round| paths.round(&point, seed, round))))
                 })

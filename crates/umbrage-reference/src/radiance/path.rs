@@ -22,7 +22,6 @@ pub(super) struct Paths<'a> {
     surfaces: &'a Surfaces<'a>,
     light: &'a Light<'a>,
     bounces: u32,
-    flat: bool,
     points: Vec<DVec2>,
     pub rays: u64,
 }
@@ -52,8 +51,8 @@ impl<'a> Paths<'a> {
         options: &RadianceOptions,
         per_round: u32,
     ) -> Self {
-        let RadianceOptions { bounces, flat, .. } = *options;
-        Self { tracer, surfaces, light, bounces, flat, points: lattice(per_round as usize), rays: 0 }
+        let bounces = options.bounces;
+        Self { tracer, surfaces, light, bounces, points: lattice(per_round as usize), rays: 0 }
     }
 
     /// The mean of the samples of one round of a pixel.
@@ -90,7 +89,7 @@ impl<'a> Paths<'a> {
             if left == 0 {
                 break;
             }
-            point = self.surfaces.met(triangle, point.position + direction * t, self.flat, direction);
+            point = self.surfaces.met(triangle, point.position + direction * t, direction);
             share *= point.albedo;
             numbers = [random.point(), random.point()];
         }

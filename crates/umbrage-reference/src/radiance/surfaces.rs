@@ -68,17 +68,17 @@ impl<'a> Surfaces<'a> {
     }
 
     /// The point that a pixel shows.
-    pub fn seen(&self, surface: &Surface, flat: bool, to_eye: DVec3) -> Point {
+    pub fn seen(&self, surface: &Surface, to_eye: DVec3) -> Point {
         let position = surface.position - self.tracer.center;
-        self.point(position, surface.normal, surface.triangle, flat, to_eye)
+        self.point(position, surface.normal, surface.triangle, to_eye)
     }
 
     /// The point where a ray along `direction` meets a triangle.
-    pub fn met(&self, triangle: &Triangle, position: DVec3, flat: bool, direction: DVec3) -> Point {
-        self.point(position, triangle.unit_normal(), Some(triangle.id), flat, -direction)
+    pub fn met(&self, triangle: &Triangle, position: DVec3, direction: DVec3) -> Point {
+        self.point(position, triangle.unit_normal(), Some(triangle.id), -direction)
     }
 
-    fn point(&self, position: DVec3, plane: DVec3, triangle: Option<u32>, flat: bool, to_eye: DVec3) -> Point {
+    fn point(&self, position: DVec3, plane: DVec3, triangle: Option<u32>, to_eye: DVec3) -> Point {
         let mut point = Point { position, plane, normal: plane, albedo: DVec3::ONE, triangle };
         let looks = triangle.and_then(|t| {
             let (instance, index) = self.tracer.place_of(t)?;
@@ -89,7 +89,7 @@ impl<'a> Surfaces<'a> {
             let corners = corners.and_then(|c| Some([*c.first()?, *c.get(1)?, *c.get(2)?]));
             let shares = corners.and_then(|c| looks.shares(c, position));
             point.albedo = looks.albedo(corners.zip(shares));
-            let smooth = corners.zip(shares).filter(|_| !flat).and_then(|(c, s)| looks.normal(c, s));
+            let smooth = corners.zip(shares).and_then(|(c, s)| looks.normal(c, s));
             point.normal = smooth.unwrap_or(plane);
         }
         if point.normal.dot(to_eye) < 0.0 {

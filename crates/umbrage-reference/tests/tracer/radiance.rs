@@ -31,7 +31,7 @@ fn plane(sky: Sky) -> Scene {
 fn trace(scene: &Scene, size: (u32, u32), samples: u32, bounces: u32) -> RadianceTruth {
     let tracer = Tracer::new(scene);
     let geometry = tracer.geometry(&scene.camera, size.0, size.1);
-    let options = RadianceOptions { samples, bounces, flat: false };
+    let options = RadianceOptions { samples, bounces };
     let paths = PathTracer::new(&tracer, scene).expect("a scene that can be traced");
     paths.radiance((&geometry, &scene.camera), &options, &|_, _| ()).expect("a truth")
 }
