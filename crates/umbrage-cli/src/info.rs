@@ -4,8 +4,9 @@ use crate::say;
 use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
+use std::borrow::Cow;
 use umbrage_core::mesh_check::{MeshReport, check_scene};
-use umbrage_core::{Camera, Instance, Light, Scene, glam::DVec3};
+use umbrage_core::{Camera, Instance, Light, LightShape, Scene, glam::DVec3};
 use umbrage_report::Source;
 
 /// Shows what a scene holds: triangles, lights, bounds, and faults of its meshes
@@ -63,9 +64,12 @@ fn masked(scene: &Scene) -> usize {
 fn as_json(source: &Source, report: &MeshReport) -> String {
     let scene = &source.scene;
     let bounds = scene.bounds();
-    let light = |(i, l): (usize, &Light)| {
+    let light = |(i, l): (usize, Cow<'_, Light>)| {
         let center = l.shape.center();
         let kind = l.shape.kind();
+        if let LightShape::Environment(sky) = &l.shape {
+            return json!({ "light": i, "kind": kind.name(), "rotate_deg": sky.rotate_deg, "intensity": sky.intensity });
+        }
         let place = if center.w == 0.0 { "direction_to" } else { "position" };
         json!({ "light": i, "kind": kind.name(), "soft": kind.is_soft(), "casts": l.casts,
                 place: center.truncate().to_array(), "radius": l.shape.radius() })
@@ -87,7 +91,7 @@ fn as_json(source: &Source, report: &MeshReport) -> String {
         "camera": { "eye": scene.camera.eye.to_array(), "target": scene.camera.target.to_array(),
                     "fov_y_deg": scene.camera.fov_y_deg, "near": scene.camera.near,
                     "height": scene.camera.parallel.map(|p| p.height), "far": scene.camera.parallel.map(|p| p.far) },
-        "lights": scene.lights.iter().enumerate().map(light).collect::<Vec<Value>>(),
+        "lights": scene.numbered_lights().enumerate().map(light).collect::<Vec<Value>>(),
         "mesh_check": mesh,
         "notes": notes(source),
     });
@@ -119,7 +123,11 @@ fn as_text(source: &Source, report: &MeshReport) -> String {
         "camera",
         format!("{} to {}, {}", vector(scene.camera.eye), vector(scene.camera.target), height_of(&scene.camera)),
     );
-    for (i, light) in scene.lights.iter().enumerate() {
+    for (i, light) in scene.numbered_lights().enumerate() {
+        if let LightShape::Environment(sky) = &light.shape {
+            text += &row(&format!("light {i}"), format!("environment, turned by {}°", sky.rotate_deg));
+            continue;
+        }
         let center = light.shape.center();
         let place = if center.w == 0.0 { "from" } else { "at" };
         let casts = if light.casts { "" } else { ", casts no shadow" };

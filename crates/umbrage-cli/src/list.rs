@@ -6,7 +6,7 @@ use clap::Args;
 use serde_json::{Value, json};
 use umbrage::{AdapterSummary, Gpu, Group, Param, Registry};
 use umbrage_core::scenes::SCENES;
-use umbrage_report::{RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced};
+use umbrage_report::{PATH_TRACED, PATH_TRACED_SUMMARY, PathTraced, RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced};
 
 /// Lists techniques with their parameters, built-in scenes, and graphics adapters
 #[derive(Args)]
@@ -41,7 +41,7 @@ impl List {
     }
 }
 
-/// The registry, with the ray tracer at its head.
+/// The registry, with both tracers at its head.
 fn entries(registry: &Registry) -> Vec<Entry> {
     let kinds = |kinds: umbrage_core::LightKinds| kinds.iter().map(|k| k.name()).collect();
     let ray_traced = Entry {
@@ -50,6 +50,15 @@ fn entries(registry: &Registry) -> Vec<Entry> {
         source: "PX 2.1.2; ZA 5.4",
         lights: kinds(umbrage_core::LightKinds::ALL),
         params: RayTraced::params(),
+        views: &[],
+        inline: false,
+    };
+    let path_traced = Entry {
+        id: PATH_TRACED,
+        summary: PATH_TRACED_SUMMARY,
+        lights: vec![umbrage_core::LightKind::Environment.name()],
+        params: PathTraced::params(),
+        source: "Veach, Guibas 1995",
         views: &[],
         inline: false,
     };
@@ -62,7 +71,7 @@ fn entries(registry: &Registry) -> Vec<Entry> {
         views: t.views,
         inline: t.is_lent(),
     });
-    std::iter::once(ray_traced).chain(registered).collect()
+    [ray_traced, path_traced].into_iter().chain(registered).collect()
 }
 
 fn as_json(entries: &[Entry], adapters: &[AdapterSummary]) -> String {

@@ -10,7 +10,9 @@ use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;
 use umbrage::{Registry, nearest};
-use umbrage_report::{Aov, Choice, LIGHT_SAMPLES, Method, Picture, RAY_TRACED, RayTraced, Shot, check_file};
+use umbrage_report::{
+    Aov, Choice, LIGHT_SAMPLES, Method, PATH_TRACED, PathTraced, Picture, RAY_TRACED, RayTraced, Shot, check_file,
+};
 
 /// Renders one picture of a scene with one technique
 #[derive(Args)]
@@ -21,16 +23,18 @@ Examples:
   umbrage render contact --technique shadow-map --light-samples 256 -o soft.png
   umbrage render atrium --technique volume --light 0 --aov overdraw -o overdraw.png
   umbrage render contact --technique ray-traced --samples 256 --aov visibility -o v.png
+  umbrage render courtyard --technique path-traced --bounces 4 --aov radiance -o r.exr
 
 Pictures: `color` is sRGB PNG. `visibility` is linear: 16-bit grey PNG, or float EXR (channel V); it needs \
---light where a scene has several. `scored` is 255 where the comparison looks. `depth` is metres along the view in \
+--light where a scene has several. `radiance` is linear RGB in EXR, tone-mapped in PNG. `scored` is 255 where the comparison looks. `depth` is metres along the view in \
 EXR (channel Z), the nearest over the distance in PNG. `normal` is world space in EXR, (n + 1) / 2 in PNG. Maps are as \
 stored in EXR (channel V), with the largest value white in PNG; a light to all sides has `map-0` to `map-5`, those of \
 faces in use.")]
 pub struct Render {
     /// Built-in scene or file
     scene: String,
-    /// Technique, as in `umbrage list`; `ray-traced` is the reference
+    /// Technique, as in `umbrage list`; `ray-traced` is the reference, `path-traced` that of light
+    /// from the sky
     #[arg(long, value_name = "ID", default_value = "shadow-map")]
     technique: String,
     /// Parameter of the technique
@@ -46,9 +50,14 @@ pub struct Render {
     changed: args::Changed,
     #[command(flatten)]
     moved: args::Moved,
-    /// Rays for each pixel of `ray-traced`; 1 is the perfect hard shadow [default: 1024]
+    /// Rays for each pixel of `ray-traced`; 1 is the perfect hard shadow [default: 1024]. Paths
+    /// for each pixel of `path-traced` [default: 256]
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
+    /// How often light is reflected before the surface that is seen, with `path-traced` [default:
+    /// 0]
+    #[arg(long, value_name = "N")]
+    bounces: Option<u32>,
     /// Average a hard technique over so many points of the light
     #[arg(long, value_name = "N")]
     light_samples: Option<u32>,
@@ -56,7 +65,7 @@ pub struct Render {
     /// wrong single-pass algorithm, to compare with
     #[arg(long, value_name = "SHARE", value_parser = share)]
     overlay: Option<f32>,
-    /// color, visibility, scored, depth, normal, or a view into the technique, such as map-0
+    /// color, visibility, radiance, scored, depth, normal, or a view into the technique, such as map-0
     #[arg(long, value_name = "NAME", default_value = "color")]
     aov: String,
     /// File to write, .png or .exr
@@ -72,6 +81,12 @@ impl Render {
         let aov = Aov::from(self.aov.as_str());
         Picture::check_name(&aov, &self.output)?;
         check_file(&self.output)?;
+        if self.technique == PATH_TRACED {
+            return self.path_traced(context.registry, &aov);
+        }
+        if self.bounces.is_some() {
+            bail!("--bounces is for `{PATH_TRACED}`");
+        }
         let method = self.method(context.registry)?;
         if self.overlay.is_some() && (aov != Aov::Color || self.technique == RAY_TRACED) {
             bail!(
@@ -93,6 +108,27 @@ impl Render {
         let picture = shot.take(gpu.as_ref(), &Bars::default())?;
         picture.save(&self.output)?;
         Ok(())
+    }
+
+    /// Takes the picture on the CPU, under the scene's environment.
+    fn path_traced(&self, registry: &Registry, aov: &Aov) -> Result<()> {
+        for (given, name) in [
+            (self.light.is_some(), "--light"),
+            (self.light_samples.is_some(), "--light-samples"),
+            (self.overlay.is_some(), "--overlay"),
+        ] {
+            if given {
+                bail!("{name} is not for `{PATH_TRACED}`, whose one light is the scene's environment");
+            }
+        }
+        let mut set = self.set.clone();
+        set.extend(self.samples.map(|n| ("samples".into(), n.to_string())));
+        set.extend(self.bounces.map(|n| ("bounces".into(), n.to_string())));
+        let settings = PathTraced::read(registry, &set)?;
+        let source = self.moved.of(self.changed.open(&self.scene)?, self.size);
+        source.notes.iter().for_each(|note| say::note(note));
+        let picture = settings.take(&source, (self.size.width, self.size.height), aov, &Bars::default())?;
+        Ok(picture.save(&self.output)?)
     }
 
     /// Names the picture that was probably meant, before a light is asked for that it does not
@@ -125,7 +161,7 @@ impl Render {
 }
 
 /// Pictures of a scene, whatever the technique.
-const PICTURES: [&str; 5] = ["color", "visibility", "scored", "depth", "normal"];
+const PICTURES: [&str; 6] = ["color", "visibility", "radiance", "scored", "depth", "normal"];
 
 fn share(text: &str) -> Result<f32, String> {
     let share = text.parse().ok().filter(|s| (0.0..=1.0).contains(s));

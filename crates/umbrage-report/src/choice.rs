@@ -12,6 +12,13 @@ pub const RAY_TRACED: &str = "ray-traced";
 pub const RAY_TRACED_SUMMARY: &str =
     "The truth, traced on the CPU with rays to points all over the light. Everything is compared with it.";
 
+/// Name of the path tracer where a technique may be named.
+pub const PATH_TRACED: &str = "path-traced";
+
+/// What it is, in one sentence.
+pub const PATH_TRACED_SUMMARY: &str =
+    "The truth about light from the sky, direct and reflected, traced on the CPU along paths that end in the sky.";
+
 umbrage::settings! {
     /// Its settings.
     pub struct RayTraced {
@@ -62,6 +69,11 @@ impl Choice {
     /// # Errors
     /// Names that are not known, with the nearest one, and values out of range.
     pub fn new(registry: &Registry, id: &str, set: &[(String, String)]) -> Result<Self, Error> {
+        if id == PATH_TRACED {
+            let text =
+                format!("`{PATH_TRACED}` is a reference that is no technique here; take it with `umbrage render`");
+            return Err(Error::Name(text));
+        }
         if id == RAY_TRACED {
             let text = format!("`{RAY_TRACED}` is the reference of every comparison already; leave it out");
             return Err(Error::Name(text));

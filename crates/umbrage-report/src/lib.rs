@@ -14,7 +14,9 @@ mod path;
 mod progress;
 mod source;
 
-pub use choice::{Choice, LIGHT_FRAMES, LIGHT_SAMPLES, RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced};
+pub use choice::{
+    Choice, LIGHT_FRAMES, LIGHT_SAMPLES, PATH_TRACED, PATH_TRACED_SUMMARY, RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced,
+};
 pub use error::Error;
 pub use given::Given;
 pub use maps::Maps;
@@ -43,6 +45,7 @@ not_in_browsers! {
     mod made;
     mod measure;
     mod output;
+    mod path_traced;
     mod pictures;
     pub mod record;
     mod round;
@@ -56,6 +59,7 @@ not_in_browsers! {
     mod way;
 
     pub use bench::{Bench, BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene, BenchTraffic, Earlier, NoBenchmark};
+    pub use path_traced::PathTraced;
     pub use column::{COLUMNS, Column, RADIANCE_COLUMNS};
     pub use compare::{Compare, Outcome};
     pub use html::page;

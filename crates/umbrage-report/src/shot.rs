@@ -1,7 +1,12 @@
 //! One picture of a scene, or of what is inside a technique.
 
 use crate::{
-    choice::Choice, error::Error, given::Given, pictures::inverse_depth, progress::Progress, source::Source,
+    choice::{Choice, PATH_TRACED},
+    error::Error,
+    given::Given,
+    pictures::{inverse_depth, tone_mapped},
+    progress::Progress,
+    source::Source,
     truth::Tracing,
 };
 use std::path::Path;
@@ -18,6 +23,8 @@ pub enum Aov {
     Color,
     /// The share of one light that each pixel sees.
     Visibility,
+    /// The light that surfaces send to the eye under the environment.
+    Radiance,
     /// Which pixels are scored for one light: receiving surfaces that face it.
     Scored,
     /// Distance along the view.
@@ -33,6 +40,7 @@ impl From<&str> for Aov {
         match name {
             "color" => Self::Color,
             "visibility" => Self::Visibility,
+            "radiance" => Self::Radiance,
             "scored" => Self::Scored,
             "depth" => Self::Depth,
             "normal" => Self::Normal,
@@ -78,6 +86,8 @@ pub enum Picture {
     Color(Image<[u8; 4]>),
     /// Shares, 0 to 1.
     Share(Image<f32>),
+    /// Linear RGB.
+    Radiance(Image<[f32; 3]>),
     /// What is stored inside of a technique.
     Inside(Image<f32>),
     /// Yes or no.
@@ -112,13 +122,7 @@ impl Shot {
         let (width, height) = self.size;
         match gpu {
             Some(gpu) => gpu.check_size("the picture", width, height)?,
-            None => {
-                let wrong = [width, height].into_iter().find(|side| !(1..=LONGEST_SIDE).contains(side));
-                if let Some(size) = wrong.map(u64::from) {
-                    let limit = u64::from(LONGEST_SIDE);
-                    return Err(umbrage::Error::Size { what: "the picture".into(), size, limit }.into());
-                }
-            }
+            None => check_side(width, height)?,
         }
         match gpu {
             _ if !self.needs_gpu() => self.take_on_cpu(progress),
@@ -140,11 +144,15 @@ impl Shot {
             Aov::Scored => Ok(Picture::Mask(truth(1)?.scored)),
             Aov::Visibility => Ok(Picture::Share(truth(samples)?.visibility)),
             Aov::Color => Err(umbrage::Error::NoAdapter { found: String::new() }.into()),
+            Aov::Radiance => Err(no_radiance()),
             Aov::Inside(name) => Err(unknown_view(name, &[])),
         }
     }
 
     fn take_on_gpu(&self, gpu: &Gpu, progress: &dyn Progress) -> Result<Picture, Error> {
+        if self.aov == Aov::Radiance {
+            return Err(no_radiance());
+        }
         let mut techniques: Vec<Box<dyn Technique>> = Vec::new();
         match &self.method {
             Method::RayTraced { samples } => {
@@ -185,6 +193,7 @@ impl Shot {
             Aov::Depth => Picture::Depth(renderer.depth(&scene.camera)?),
             Aov::Normal => Picture::Normal(renderer.normal()?),
             Aov::Visibility | Aov::Scored => Picture::Share(renderer.visibility(0)?),
+            Aov::Radiance => return Err(no_radiance()),
             Aov::Inside(name) => {
                 let views = renderer.technique(0).map(|t| t.inside().debug_views()).unwrap_or_default();
                 let view = views.iter().find(|v| v.name == name).ok_or_else(|| self.no_view(name, &views))?;
@@ -225,14 +234,27 @@ impl Shot {
     }
 }
 
+/// Checks the size of a picture that is made without a GPU.
+pub(crate) fn check_side(width: u32, height: u32) -> Result<(), Error> {
+    let wrong = [width, height].into_iter().find(|side| !(1..=LONGEST_SIDE).contains(side));
+    wrong.map_or(Ok(()), |size| {
+        let limit = u64::from(LONGEST_SIDE);
+        Err(umbrage::Error::Size { what: "the picture".into(), size: size.into(), limit }.into())
+    })
+}
+
 const EIGHT_BITS: &str = "this picture has 8 bits a channel: end its name in .png";
 
 fn wrong_name(path: &Path, remedy: &str) -> Error {
     Error::Name(format!("{}: can't be written in this format; {remedy}", path.display()))
 }
 
+fn no_radiance() -> Error {
+    Error::Name(format!("this technique finds visibility; `--aov radiance` is what `{PATH_TRACED}` finds"))
+}
+
 fn unknown_view(name: &str, inside: &[&str]) -> Error {
-    let names = [&["color", "visibility", "scored", "depth", "normal"], inside].concat();
+    let names = [&["color", "visibility", "radiance", "scored", "depth", "normal"], inside].concat();
     let nearest = umbrage::nearest(name, names.iter().copied());
     let guess = nearest.map_or(String::new(), |n| format!("did you mean `{n}`? "));
     Error::Name(format!("unknown picture `{name}`; {guess}there are {}", names.join(", ")))
@@ -255,7 +277,7 @@ impl Picture {
 
     /// Writes the picture as the extension says: PNG to look at, EXR with the numbers as they are.
     ///
-    /// In a PNG shares are 16-bit grey, depth is the nearest over the distance in 16-bit grey, what
+    /// In a PNG radiance is tone-mapped, shares are 16-bit grey, depth is the nearest over the distance in 16-bit grey, what
     /// is inside of a technique is 16-bit grey with its largest value white, normals are 8-bit
     /// (n + 1) / 2.
     ///
@@ -267,6 +289,8 @@ impl Picture {
             Self::Color(_) if is_exr => return Err(wrong_name(path, EIGHT_BITS)),
             Self::Color(image) => pictures::save_png(path, image),
             Self::Mask(image) => pictures::save_png(path, &image.map(|&m| if m { 255u8 } else { 0 })),
+            Self::Radiance(image) if is_exr => pictures::save_exr_rgb(path, image),
+            Self::Radiance(image) => pictures::save_png(path, &image.map(|&c| tone_mapped(c.into()))),
             Self::Share(image) if is_exr => pictures::save_exr(path, image, "V"),
             Self::Share(image) => pictures::save_grey16(path, image),
             Self::Inside(image) if is_exr => pictures::save_exr(path, image, "V"),

@@ -82,6 +82,16 @@ impl Source {
             Error::scene(
                 &self.asked,
                 match self.scene.lights.len() {
+                    0 if self.scene.environment.is_some() => {
+                        "its only light is the environment, which `render --technique path-traced` shows; add a \
+                         [[light]] for this"
+                            .to_string()
+                    }
+                    n if number == n && self.scene.environment.is_some() => format!(
+                        "light {n} is the environment, whose answer is radiance; take `render --technique path-traced`, \
+                         or one of the lights 0 to {}",
+                        n - 1
+                    ),
                     0 => "there is no light in it; add one".to_string(),
                     1 => format!("there is no light {number}; its one light is 0"),
                     n => format!("there is no light {number}; its lights are 0 to {}", n - 1),

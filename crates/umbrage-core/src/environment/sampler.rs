@@ -164,7 +164,7 @@ fn weights(sky: &Sky, width: u32, height: u32) -> Vec<f64> {
 }
 
 /// Places around a pixel, in pixels, and the shares of it there.
-const SPREAD: [(f64, f64); 3] = [(-0.5, 0.25), (0.0, 0.5), (0.5, 0.25)];
+const SPREAD: [(f64, f64); 5] = [(-0.8, 0.1), (-0.4, 0.2), (0.0, 0.4), (0.4, 0.2), (0.8, 0.1)];
 
 fn luminance(color: Vec3) -> f64 {
     color.as_dvec3().dot(DVec3::new(0.2126, 0.7152, 0.0722))

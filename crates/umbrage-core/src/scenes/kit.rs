@@ -1,7 +1,9 @@
 //! What the procedural scenes are made with: detail, chance, colours, placement.
 
+use crate::environment::{Gradient, SkyPicture, direction_of, place_of_pixel};
 use crate::light::{Light, LightShape};
 use crate::material::Material;
+use crate::{Image, Sky};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// How finely a scene is built; 1 is its normal state. Numbers of triangles or objects go by it.
@@ -97,6 +99,20 @@ pub fn sunlight(azimuth_deg: f64, elevation_deg: f64) -> DVec3 {
 /// A light of one colour, linear RGB.
 pub fn light(shape: LightShape, color: [f32; 3], intensity: f32) -> Light {
     Light { color: Vec3::from(color), intensity, ..Light::new(shape) }
+}
+
+/// A sky without edges: blue above, pale at the horizon, dim below, and a broad sun, some twenty
+/// degrees wide, in the direction `to_sun`.
+pub fn soft_sky(to_sun: DVec3, sun: Vec3) -> Sky {
+    let (zenith, horizon, nadir) = (Vec3::new(0.32, 0.5, 0.85), Vec3::new(0.8, 0.85, 0.9), Vec3::splat(0.22));
+    let around = Sky::Gradient(Gradient { zenith, horizon, nadir });
+    let size = (128, 64);
+    let image = Image::from_fn(size.0, size.1, |x, y| {
+        let direction = direction_of(place_of_pixel(size, x, y));
+        let glow = (30.0 * (direction.dot(to_sun) - 1.0)).exp() as f32;
+        (around.radiance(direction) + sun * glow).to_array()
+    });
+    SkyPicture::new(image).map_or(around, Sky::Picture)
 }
 
 /// Angular diameter of the sun seen from Earth, degrees.

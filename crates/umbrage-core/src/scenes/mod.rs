@@ -1,17 +1,20 @@
 //! Procedural scenes with a registry: the product works with nothing but its own source.
 //!
 //! A scene is one file with a `const ENTRY` and its line in [`SCENES`]. Light 0 is hard, light 1
-//! soft; each file says what its lights are for. Building is deterministic.
+//! soft; each file says what its lights are for. Some have a sky besides. Building is deterministic.
 
 mod atrium;
 mod city;
 mod contact;
+mod courtyard;
 mod duelling_frusta;
 mod kit;
 mod lantern;
 mod overlap;
 mod picket_fence;
+mod plinths;
 mod primitives;
+mod seabed;
 mod shapes;
 mod tentacles;
 mod terrain;
@@ -46,6 +49,9 @@ pub static SCENES: &[SceneEntry] = &[
     overlap::ENTRY,
     terrain::ENTRY,
     tentacles::ENTRY,
+    courtyard::ENTRY,
+    seabed::ENTRY,
+    plinths::ENTRY,
 ];
 
 /// The scene called `id`.
