@@ -348,7 +348,9 @@ fn dynamic_ms(still: &Value, moving: &Value) -> Option<f64> {
     let passes = |result: &Value| result["cost"]["passes"].as_array().cloned();
     let (still, moving) = (passes(still)?, passes(moving)?);
     let is_kept = |pass: &&Value| still.iter().any(|s| (&s["owner"], &s["pass"]) == (&pass["owner"], &pass["pass"]));
-    Some(moving.iter().filter(|pass| !is_kept(pass)).filter_map(|pass| pass["time_ms"]["median"].as_f64()).sum())
+    let parts = moving.iter().filter(|pass| !is_kept(pass)).filter_map(|pass| pass["time_ms"]["median"].as_f64());
+    // The sum of none is −0.
+    Some(parts.sum::<f64>() + 0.0)
 }
 
 fn times(

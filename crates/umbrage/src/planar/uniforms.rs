@@ -107,7 +107,7 @@ impl PlaneFinder {
 
 /// What the depth buffer rounds, see `position_rounding` in `receivers.wgsl`.
 fn rounding(view: &View<'_>, eye: &Eye) -> f32 {
-    eye.coarseness * eye.reach * if view.receivers.has_normals { ROUNDING } else { 8.0 * ROUNDING }
+    eye.rounding * if view.receivers.has_normals { ROUNDING } else { 8.0 * ROUNDING }
 }
 
 /// What rasterisers shift surfaces in a plane, as its equation in normalised device coordinates

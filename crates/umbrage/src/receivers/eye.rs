@@ -13,15 +13,18 @@ shader_struct! {
         ndc_from_pixel: [f32; 2],
         /// What the depth buffer holds where nothing was drawn.
         background_depth: f32,
-        /// The largest |x| + |y| + |z| of `eye_from_ndc` in the picture, before the division by w.
-        reach: f32,
-        /// How far the rasteriser that made the depth buffer may shift surfaces, in normalised
-        /// device coordinates.
-        snapped: [f32; 2],
-        /// Steps of single precision by which depth may be off.
-        coarseness: f32,
+        /// The largest |x| + |y| + |z| of `eye_from_ndc` in the picture, before the division by w,
+        /// times the steps of single precision by which depth may be off.
+        rounding: f32,
+        /// How far the rasteriser that made the depth buffer may shift surfaces to the right, in
+        /// space relative to the eye, times w.
+        shift_right: [f32; 3],
         /// −1 where the picture is mirrored, else 1.
         handed: f32,
+        /// The same downwards.
+        shift_down: [f32; 3],
+        /// Nothing.
+        pad: f32,
     }
 }
 
@@ -39,14 +42,18 @@ impl Eye {
         let eye_from_ndc = clip_from_eye(camera).inverse();
         let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
         let ends = corners.into_iter().flat_map(|(x, y)| [0.0, 1.0].map(|z| eye_from_ndc * DVec4::new(x, y, z, 1.0)));
+        let reach = ends.map(|p| p.truncate().abs().element_sum()).fold(0.0, f64::max) as f32;
+        let [shift_right, shift_down] = [(eye_from_ndc.x_axis, width), (eye_from_ndc.y_axis, height)]
+            .map(|(axis, pixels)| (axis.truncate() * f64::from(2.0 * snapping / pixels as f32)).as_vec3().to_array());
         Self {
-            reach: ends.map(|p| p.truncate().abs().element_sum()).fold(0.0, f64::max) as f32,
+            rounding: coarseness * reach,
             eye_from_ndc: eye_from_ndc.as_mat4().to_cols_array_2d(),
             ndc_from_pixel: [2.0 / width as f32, -2.0 / height as f32],
             background_depth: camera.background_depth(),
-            snapped: [width, height].map(|pixels| 2.0 * snapping / pixels as f32),
-            coarseness,
+            shift_right,
             handed: if camera.is_mirrored() { -1.0 } else { 1.0 },
+            shift_down,
+            pad: 0.0,
         }
     }
 }

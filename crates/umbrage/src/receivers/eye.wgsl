@@ -7,15 +7,17 @@ struct Eye {
     ndc_from_pixel: vec2f,
     // What the depth buffer holds where nothing was drawn.
     background_depth: f32,
-    // Largest |x| + |y| + |z| of `eye_from_ndc` in the picture, before the division by w.
-    reach: f32,
-    // How far the rasteriser that made the depth buffer may shift surfaces, in normalised device
-    // coordinates.
-    snapped: vec2f,
-    // Steps of single precision by which depth may be off.
-    coarseness: f32,
+    // Largest |x| + |y| + |z| of `eye_from_ndc` in the picture, before the division by w, times the
+    // steps of single precision by which depth may be off.
+    rounding: f32,
+    // How far the rasteriser that made the depth buffer may shift surfaces to the right, in space
+    // relative to the eye, times w.
+    shift_right: vec3f,
     // −1 where the picture is mirrored, else 1.
     handed: f32,
+    // The same downwards.
+    shift_down: vec3f,
+    pad: f32,
 }
 
 // Homogeneous normalised device coordinates of a pixel.
@@ -44,14 +46,12 @@ fn line_of_sight(eye: Eye, pixel: vec2f) -> vec3f {
 // Metres times the length of `normal` that a position may be off its surface: rasterisers snap
 // corners of triangles, so that a pixel has the depth of its surface some part of a pixel aside.
 fn off_surface(eye: Eye, normal: vec3f, inverse_w: f32) -> f32 {
-    let m = eye.eye_from_ndc;
-    return dot(eye.snapped, abs(vec2f(dot(normal, m[0].xyz), dot(normal, m[1].xyz)) * inverse_w));
+    return (abs(dot(normal, eye.shift_right)) + abs(dot(normal, eye.shift_down))) * abs(inverse_w);
 }
 
 // The same in metres for a surface that lies in any way.
 fn off_any_surface(eye: Eye, inverse_w: f32) -> f32 {
-    let m = eye.eye_from_ndc;
-    return dot(eye.snapped, vec2f(length(m[0].xyz), length(m[1].xyz)) * abs(inverse_w));
+    return (length(eye.shift_right) + length(eye.shift_down)) * abs(inverse_w);
 }
 
 struct Surface {

@@ -13,8 +13,8 @@ override HAS_NORMALS: bool = true;
 fn position_rounding(eye: Eye, depth: f32, inverse_w: f32) -> f32 {
     let inverse = abs(inverse_w);
     // A normal taken from neighbouring depths is off by their rounding, too.
-    let step = select(9.6e-7, 1.2e-7, HAS_NORMALS) * eye.coarseness;
-    return step * eye.reach * inverse * (1.0 + depth * abs(eye.eye_from_ndc[2].w) * inverse);
+    let step = select(9.6e-7, 1.2e-7, HAS_NORMALS) * eye.rounding;
+    return step * inverse * (1.0 + depth * abs(eye.eye_from_ndc[2].w) * inverse);
 }
 
 // From `here` to the neighbour along `step`, nothing where that is off the picture or shows no

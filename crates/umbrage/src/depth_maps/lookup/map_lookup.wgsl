@@ -38,8 +38,10 @@ struct MapPoint {
     bend: f32,
     // It faces away from the light and casts shadows itself: nothing has to be looked up.
     is_own_shadow: bool,
-    // How much the depth may be off by rounding.
+    // How much the depth may be off by rounding, and because the rasteriser of the receiver shifted
+    // its surface; the latter times the size of `across`, to spare a division, too.
     rounding: f32,
+    shifted: f32,
     // One over the homogeneous texel's last coordinate, the distance along the axis of a
     // perspective view; else 1.
     inverse_w: f32,
@@ -275,7 +277,9 @@ fn point_by_matrix(pixel: Pixel, layer: u32) -> MapPoint {
     point.is_covered = is_in_front;
     // Positive where the surface faces the light; 0 where there is no normal or no view.
     point.is_own_shadow = surface.casts && is_in_front && point.across < 0.0;
-    point.rounding = depth_rounding(point, pixel.rounding + map.caster_rounding, pixel.off);
+    point.rounding = depth_rounding(point, pixel.rounding + map.caster_rounding);
+    // A surface seen edge-on is all off.
+    point.shifted = min(pixel.off * depth_per_metre(point), abs(point.across));
     return point;
 }
 
@@ -287,25 +291,27 @@ fn offset_by_hand(point: ptr<function, MapPoint>) {
     let per_metre = map.layers[(*point).layer].per_metre * select(1.0, z * z, PERSPECTIVE);
     let constant = map.offsets.x * per_metre * select(1.0, abs((*point).inverse_w), WARPED);
     (*point).rounding = constant + map.offsets.y * (abs(slope.x) + abs(slope.y));
+    (*point).shifted = 0.0;
     (*point).along = vec2f(0.0);
     (*point).across = 1.0;
     (*point).bend = 0.0;
 }
 
+// Change of depth per metre along the light.
+fn depth_per_metre(point: MapPoint) -> f32 {
+    let per_metre = map.layers[point.layer].per_metre * select(1.0, point.depth * point.depth, PERSPECTIVE);
+    return per_metre * select(1.0, abs(point.inverse_w), WARPED);
+}
+
 // How much depth may be off where positions are by `metres`, in each coordinate that the map's
-// matrix gives, and by `off` from the surface.
-fn depth_rounding(point: MapPoint, metres: f32, off: f32) -> f32 {
+// matrix gives.
+fn depth_rounding(point: MapPoint, metres: f32) -> f32 {
     let z = abs(point.depth);
-    let layer = point.layer;
-    var per_metre = map.layers[layer].per_metre * select(1.0, z * z, PERSPECTIVE);
-    var in_each = per_metre;
+    var in_each = depth_per_metre(point);
     if WARPED {
-        per_metre *= abs(point.inverse_w);
-        in_each = per_metre + z * length(map.layers[layer].texel_w) * abs(point.inverse_w);
+        in_each += z * length(map.layers[point.layer].texel_w) * abs(point.inverse_w);
     }
-    // A surface seen edge-on is all off.
-    let shifted = min(off * per_metre, abs(point.across)) / max(abs(point.across), 1e-30);
-    return map.rounding.x * z + map.rounding.y + metres * in_each + shifted;
+    return map.rounding.x * z + map.rounding.y + metres * in_each;
 }
 
 // Change of depth per texel. A plane seen edge-on has no slope to speak of; the largest that helps
@@ -332,7 +338,8 @@ fn depth_along(point: MapPoint, slope: vec2f, offset: vec2f) -> f32 {
 // What comparing has to forgive when the compared surface may be `texels` away from the receiver's
 // own place.
 fn map_bias(point: MapPoint, slope: vec2f, texels: f32) -> f32 {
-    return map.bias * (texels * (abs(slope.x) + abs(slope.y)) + point.rounding);
+    let shifted = point.shifted / max(abs(point.across), 1e-30);
+    return map.bias * (texels * (abs(slope.x) + abs(slope.y)) + point.rounding + shifted);
 }
 
 // How deep a texel is wide.
@@ -375,7 +382,7 @@ fn map_bend(point: MapPoint, texels: f32) -> f32 {
 fn lit_margin(point: MapPoint, offset: vec2f, stored: f32, bend: f32) -> f32 {
     let step = plane_step(point, point.along, point.bend, offset) * sign(point.across);
     let toward = before_horizon(step, point.depth * abs(point.across));
-    let crease = map.bias * CREASE * (abs(point.along.x) + abs(point.along.y));
+    let crease = map.bias * (CREASE * (abs(point.along.x) + abs(point.along.y)) + point.shifted);
     return (point.depth + map.bias * point.rounding + bend - stored) * abs(point.across) + toward + crease;
 }
 
