@@ -60,8 +60,8 @@ impl Trees {
     pub fn new(gpu: &Gpu) -> Self {
         Self {
             meshes: Meshes::new(gpu),
-            top: Grown::new(gpu, "boxes of casters"),
-            placed: Grown::new(gpu, "placed meshes"),
+            top: Grown::new(gpu, "outer boxes"),
+            placed: Grown::new(gpu, "places"),
             top_data: Vec::new(),
             placed_data: Vec::new(),
         }
