@@ -377,8 +377,8 @@ fn map_bend(point: MapPoint, texels: f32) -> f32 {
 
 // How far a receiver is lit by the depth `stored` that lies `offset` texels away from it, shadowed
 // where that is negative: its plane, continued to there, is compared with forgiveness for a crease
-// between and for `bend`. All is multiplied by |across|, so that nothing is divided and a plane seen
-// edge-on counts as lit.
+// between and for `bend`. All is multiplied by |across|, so that nothing is divided and a plane
+// seen edge-on counts as lit.
 fn lit_margin(point: MapPoint, offset: vec2f, stored: f32, bend: f32) -> f32 {
     let step = plane_step(point, point.along, point.bend, offset) * sign(point.across);
     let toward = before_horizon(step, point.depth * abs(point.across));
