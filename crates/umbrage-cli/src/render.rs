@@ -65,7 +65,8 @@ pub struct Render {
     /// wrong single-pass algorithm, to compare with
     #[arg(long, value_name = "SHARE", value_parser = share)]
     overlay: Option<f32>,
-    /// color, visibility, radiance, scored, depth, normal, or a view into the technique, such as map-0
+    /// color, visibility, radiance, scored, depth, normal, or a view into the technique, such as
+    /// map-0
     #[arg(long, value_name = "NAME", default_value = "color")]
     aov: String,
     /// File to write, .png or .exr

@@ -2,9 +2,9 @@
 //! --release --example check_radiance -p umbrage-reference -- FOLDER [SAMPLES] [--smooth]`.
 //!
 //! One line a picture. Stored pictures are shaded by the normals of triangles, those of spheres
-//! apart; `--smooth` leaves the normals of vertices to all. Ends with an error where a picture misses
-//! the goal: mean luminance within 0.3 %, and no more difference in a pixel than the noise of both
-//! explains.
+//! apart; `--smooth` leaves the normals of vertices to all. Ends with an error where a picture
+//! misses the goal: mean luminance within 0.3 %, and no more difference in a pixel than the noise
+//! of both explains.
 
 use std::f64::consts::FRAC_2_PI;
 use std::path::PathBuf;

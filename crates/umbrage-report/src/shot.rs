@@ -277,9 +277,9 @@ impl Picture {
 
     /// Writes the picture as the extension says: PNG to look at, EXR with the numbers as they are.
     ///
-    /// In a PNG radiance is tone-mapped, shares are 16-bit grey, depth is the nearest over the distance in 16-bit grey, what
-    /// is inside of a technique is 16-bit grey with its largest value white, normals are 8-bit
-    /// (n + 1) / 2.
+    /// In a PNG radiance is tone-mapped, shares are 16-bit grey, depth is the nearest over the
+    /// distance in 16-bit grey, what is inside of a technique is 16-bit grey with its largest value
+    /// white, normals are 8-bit (n + 1) / 2.
     ///
     /// # Errors
     /// A file that can't be written.

@@ -6,8 +6,8 @@ use crate::sampling::{lattice, square_to_disc};
 use glam::{DMat3, DVec2, DVec3, Vec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// A clear sky, its sun, and what the ground below the horizon reflects. Radiance is in thousands of
-/// candela a square metre: an intensity of 0.05 or so suits a picture.
+/// A clear sky, its sun, and what the ground below the horizon reflects. Radiance is in thousands
+/// of candela a square metre: an intensity of 0.05 or so suits a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Daylight {
     sun: Sun,
@@ -47,12 +47,12 @@ impl Daylight {
     pub const SUN_ANGLE_DEG: f64 = 0.53;
 
     /// A sky with the sun in the direction `to_sun`, of `sun_angle_deg` degrees in diameter, and a
-    /// ground of the reflectance `ground`. `turbidity` is how hazy the air is: 2 is very clear, 10 a
-    /// haze.
+    /// ground of the reflectance `ground`. `turbidity` is how hazy the air is: 2 is very clear, 10
+    /// a haze.
     ///
     /// # Errors
-    /// What is wrong, and the remedy: a sun that is not above the horizon, or of an angle out of 0.05
-    /// to 90; a turbidity out of 2 to 10; a reflectance out of 0 to 1.
+    /// What is wrong, and the remedy: a sun that is not above the horizon, or of an angle out of
+    /// 0.05 to 90; a turbidity out of 2 to 10; a reflectance out of 0 to 1.
     pub fn new(to_sun: DVec3, turbidity: f64, ground: Vec3, sun_angle_deg: f64) -> Result<Self, String> {
         let Some(direction) = to_sun.try_normalize().filter(|d| d.y > 0.0) else {
             return Err(format!("has its sun in the direction {to_sun}; the model needs it above the horizon"));

@@ -5,8 +5,8 @@
 //! from 0 (top) to 1 (bottom) its point shows the direction (sin θ sin φ, cos θ, −sin θ cos φ), θ =
 //! π v, φ = 2π (u − ½): the middle of the picture is −Z, three quarters is +X. See
 //! [`direction_of`]. Columns are spread evenly around, so that the middle of the first is half a
-//! column from the left side; rows from pole to pole, so that the first is seen at +Y itself and the
-//! last at −Y: [`place_of_pixel`]. In between both are interpolated.
+//! column from the left side; rows from pole to pole, so that the first is seen at +Y itself and
+//! the last at −Y: [`place_of_pixel`]. In between both are interpolated.
 
 mod daylight;
 mod picture;

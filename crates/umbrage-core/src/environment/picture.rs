@@ -30,8 +30,8 @@ pub fn place_of(direction: DVec3) -> DVec2 {
     DVec2::new((phi / TAU + 0.5).clamp(0.0, 1.0), theta / PI)
 }
 
-/// The point (u, v) where the pixel of a picture of this size is seen as it is; between these points
-/// it is interpolated.
+/// The point (u, v) where the pixel of a picture of this size is seen as it is; between these
+/// points it is interpolated.
 pub fn place_of_pixel((width, height): (u32, u32), x: u32, y: u32) -> DVec2 {
     let v = if height > 1 { f64::from(y) / f64::from(height - 1) } else { 0.5 };
     DVec2::new((f64::from(x) + 0.5) / f64::from(width.max(1)), v)

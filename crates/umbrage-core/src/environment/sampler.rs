@@ -8,7 +8,8 @@ use std::f64::consts::{PI, TAU};
 /// Jakob, Humphreys, "Physically Based Rendering", 2023, 12.5).
 ///
 /// The density is that of a grid of at most 1024 × 512 cells, even in solid angle within each, so
-/// that a picture of any size takes no more than some megabytes; a sun that is apart is drawn apart.
+/// that a picture of any size takes no more than some megabytes; a sun that is apart is drawn
+/// apart.
 pub struct EnvironmentSampler {
     world_from_sky: DMat3,
     cells: Cells,
@@ -63,7 +64,8 @@ impl EnvironmentSampler {
         self.is_even
     }
 
-    /// The direction, a unit vector, that belongs to `u` in [0, 1)², and its [density](Self::density).
+    /// The direction, a unit vector, that belongs to `u` in [0, 1)², and its
+    /// [density](Self::density).
     pub fn sample(&self, u: DVec2) -> (DVec3, f64) {
         let direction = match &self.sun {
             Some(sun) if u.x < self.sun_share => sun.sample(DVec2::new(u.x / self.sun_share, u.y)),

@@ -104,7 +104,7 @@ pub fn light(shape: LightShape, color: [f32; 3], intensity: f32) -> Light {
 /// A sky without edges: blue above, pale at the horizon, dim below, and a broad sun, some twenty
 /// degrees wide, in the direction `to_sun`.
 pub fn soft_sky(to_sun: DVec3, sun: Vec3) -> Sky {
-    let (zenith, horizon, nadir) = (Vec3::new(0.32, 0.5, 0.85), Vec3::new(0.8, 0.85, 0.9), Vec3::splat(0.22));
+    let (zenith, horizon, nadir) = (Vec3::new(0.13, 0.21, 0.38), Vec3::new(0.36, 0.39, 0.42), Vec3::splat(0.1));
     let around = Sky::Gradient(Gradient { zenith, horizon, nadir });
     let size = (128, 64);
     let image = Image::from_fn(size.0, size.1, |x, y| {

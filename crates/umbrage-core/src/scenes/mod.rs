@@ -1,7 +1,8 @@
 //! Procedural scenes with a registry: the product works with nothing but its own source.
 //!
 //! A scene is one file with a `const ENTRY` and its line in [`SCENES`]. Light 0 is hard, light 1
-//! soft; each file says what its lights are for. Some have a sky besides. Building is deterministic.
+//! soft; each file says what its lights are for. Some have a sky besides. Building is
+//! deterministic.
 
 mod atrium;
 mod city;

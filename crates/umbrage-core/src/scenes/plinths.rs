@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3, Vec3};
 pub const ENTRY: SceneEntry = SceneEntry {
     id: "plinths",
     title: "Polished stones on plinths",
-    about: "A ball, a ring and an egg with highlights, in the open: a clear sky with a small, strong sun. Lights: 0 \
+    about: "A sphere, a ring and an egg with highlights, in the open: a clear sky with a small, strong sun. Lights: 0 \
             directional, 1 the same with the sun's angle; the sky is Preetham's.",
     build,
 };

@@ -14,16 +14,17 @@ struct Face {
     cell: [u32; 2],
 }
 
-/// Side of the cube's faces, pixels, where a picture is of the form of a cross: 4 × 3 faces or 3 × 4.
+/// Side of the cube's faces, pixels, where a picture is of the form of a cross: 4 × 3 faces or 3 ×
+/// 4.
 pub(crate) fn side_of_cross((width, height): (u32, u32)) -> Option<u32> {
     let side = width.min(height) / 3;
     let is_cross = |wide: u32, high: u32| side > 0 && (width, height) == (wide * side, high * side);
     (is_cross(4, 3) || is_cross(3, 4)).then_some(side)
 }
 
-/// The equirectangular picture, four faces wide, of a cube that is unfolded into a cross as seen from
-/// inside: −Z in the middle, −X to its left, +X to its right, +Y above and −Y below; +Z is to the
-/// right of +X, or below −Y upside down. `None` where it is no cross.
+/// The equirectangular picture, four faces wide, of a cube that is unfolded into a cross as seen
+/// from inside: −Z in the middle, −X to its left, +X to its right, +Y above and −Y below; +Z is to
+/// the right of +X, or below −Y upside down. `None` where it is no cross.
 pub(crate) fn equirectangular_of_cross(cross: &Image<[f32; 3]>) -> Option<Image<[f32; 3]>> {
     let side = side_of_cross(cross.size())?;
     let faces = faces(cross.width > cross.height);

@@ -73,13 +73,11 @@ impl RadianceTruth {
 /// ```
 /// # use umbrage_core::{glam::Vec3, scenes, Environment, Sky};
 /// # use umbrage_reference::{PathTracer, RadianceOptions, Tracer};
-/// let mut scene = (scenes::find("contact").unwrap().build)(0.2);
-/// scene.environment = Some(Environment::new(Sky::Constant(Vec3::ONE)));
-/// let tracer = Tracer::new(&scene);
-/// let geometry = tracer.geometry(&scene.camera, 8, 6);
-/// let options = RadianceOptions { samples: 16, bounces: 1 };
-/// let truth = PathTracer::new(&tracer, &scene)?.radiance((&geometry, &scene.camera), &options, &|_, _| ())?;
-/// println!("{} %", 100.0 * truth.relative_error());
+/// let mut scene = (scenes::find("contact").unwrap().build)(0.2); scene.environment =
+/// Some(Environment::new(Sky::Constant(Vec3::ONE))); let tracer = Tracer::new(&scene); let geometry
+/// = tracer.geometry(&scene.camera, 8, 6); let options = RadianceOptions { samples: 16, bounces: 1
+/// }; let truth = PathTracer::new(&tracer, &scene)?.radiance((&geometry, &scene.camera), &options,
+/// &|_, _| ())?; println!("{} %", 100.0 * truth.relative_error());
 /// # Ok::<(), String>(())
 /// ```
 pub struct PathTracer<'a> {
@@ -117,8 +115,8 @@ impl<'a> PathTracer<'a> {
         Ok(Self { tracer, surfaces: Surfaces::new(tracer, scene)?, light: Light::new(environment) })
     }
 
-    /// Traces what `geometry` shows to `camera`. All threads of the current rayon pool take part. `progress` is
-    /// told, from any of them, how many of how many pixels are done.
+    /// Traces what `geometry` shows to `camera`. All threads of the current rayon pool take part.
+    /// `progress` is told, from any of them, how many of how many pixels are done.
     ///
     /// # Errors
     /// Too many bounces.

@@ -96,7 +96,7 @@ fn every_sky_gives_a_plane_the_light_that_it_sends() {
     }
 }
 
-/// A hollow ball that is open at the top, down to this height over its middle; radius 1.
+/// A hollow sphere that is open at the top, down to this height over its middle; radius 1.
 fn bowl(opening: f32) -> Mesh {
     let mut mesh = primitive::sphere(128, 64);
     let triangles: Vec<[u32; 3]> = mesh.triangles().collect();
@@ -109,9 +109,9 @@ fn bowl(opening: f32) -> Mesh {
 
 #[test]
 fn a_furnace_keeps_its_energy() {
-    // In a hollow ball every part sees every other one under the same form factor: the walls fill a
-    // share w of what each sees, so light falls off as a geometric series of ρ w, towards
-    // 1 / (1 − ρ) where the ball closes.
+    // In a hollow sphere every part sees every other one under the same form factor: the walls fill
+    // a share w of what each sees, so light falls off as a geometric series of ρ w, towards 1 / (1
+    // − ρ) where the sphere closes.
     let (rho, mesh) = (0.8_f64, bowl(0.8));
     let walls: f64 = {
         // By the area of the real opening: rows of triangles end at a parallel.
