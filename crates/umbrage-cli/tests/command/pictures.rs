@@ -311,3 +311,26 @@ fn a_changed_reference_is_noticed() {
     assert!(right < 0.005, "shadow-map is off by {right} from its own scene");
     assert!(wrong > 0.15, "a quarter less light changed the error only to {wrong}");
 }
+
+#[test]
+fn paths_are_traced_to_the_sky_and_wrong_use_is_said() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let take = ["render", "courtyard:0.1", "--technique", "path-traced", "--samples", "4", "--size", "16x12"];
+    output(dir.path(), &[&take[..], &["--bounces", "1", "--aov", "radiance", "-o", "r.exr"]].concat());
+    let radiance = umbrage_io::pictures::load_rgb(&dir.path().join("r.exr")).expect("a picture");
+    assert!(radiance.data.iter().any(|p| p[0] > 0.05) && radiance.data.iter().flatten().all(|c| c.is_finite()));
+    for (arguments, says) in [
+        (&["contact", "--technique", "path-traced", "-o", "a.png"][..], "no environment"),
+        (&["courtyard", "--technique", "path-traced", "--bounces", "65", "-o", "a.png"], "bounces"),
+        (&["courtyard", "--technique", "path-traced", "--light", "0", "-o", "a.png"], "--light is not for"),
+        (&["courtyard", "--technique", "path-traced", "--aov", "visibility", "-o", "a.png"], "--aov radiance"),
+        (&["courtyard", "--bounces", "1", "-o", "a.png"], "--bounces is for `path-traced`"),
+        (&["courtyard", "--light", "2", "-o", "a.png"], "light 2 is the environment"),
+    ] {
+        let refused = umbrage(dir.path(), &[&["render"], arguments].concat());
+        let error = String::from_utf8_lossy(&refused.stderr);
+        assert!(!refused.status.success(), "{arguments:?}");
+        assert!(error.contains(says), "{arguments:?}: {error}");
+        assert!(!dir.path().join("a.png").exists());
+    }
+}

@@ -75,7 +75,7 @@ impl<'a> Paths<'a> {
         let (mut light, mut share) = (DVec3::ZERO, point.albedo);
         let mut numbers = first;
         for left in (0..=self.bounces).rev() {
-            light += share * self.from_sky(&point, numbers[0]);
+            light += share * self.sky_light(&point, numbers[0]);
             let Some((direction, cosine)) = cosine_direction(point.normal, numbers[1]) else { break };
             // Of both ways to draw a direction, this one's weight is that of its density; the
             // cosine and π cancel out.
@@ -97,7 +97,7 @@ impl<'a> Paths<'a> {
     }
 
     /// The share of the sky's light that is drawn by where the sky is bright.
-    fn from_sky(&mut self, point: &Point, u: DVec2) -> DVec3 {
+    fn sky_light(&mut self, point: &Point, u: DVec2) -> DVec3 {
         if self.light.sampler.is_even() {
             return DVec3::ZERO;
         }
