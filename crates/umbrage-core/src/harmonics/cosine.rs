@@ -18,7 +18,7 @@ pub fn clamped_cosine(l: usize) -> f64 {
         _ => {
             // l! / (2^l ((l/2)!)²), as a product of factors below 1.
             let binomial: f64 = (1..=l / 2).map(|k| (2.0 * k as f64 - 1.0) / (2.0 * k as f64)).product();
-            let sign = if l % 4 == 0 { -1.0 } else { 1.0 };
+            let sign = if l.is_multiple_of(4) { -1.0 } else { 1.0 };
             sign * 2.0 * PI * binomial / ((l + 2) * (l - 1)) as f64
         }
     }
