@@ -50,6 +50,10 @@ impl Technique for Blurred {
         Lent::refuse("pcf-blur")
     }
 
+    fn set_frame(&mut self, frame: u32) {
+        self.source.set_frame(frame);
+    }
+
     fn draws_host_casters(&self) -> bool {
         self.source.draws_host_casters()
     }
