@@ -103,6 +103,9 @@ impl Render {
             bail!("{}: `{}` is of one light; say which with --light, 0 to {last}", source.asked, self.aov);
         }
         source.notes.iter().for_each(|note| say::note(note));
+        if aov == Aov::Color && self.light.is_none() && source.scene.environment.is_some() {
+            say::note(&format!("the light of the sky is left out; `--technique {PATH_TRACED}` shows it"));
+        }
         let shot =
             Shot { source, lights, method, size: (self.size.width, self.size.height), aov, overlay: self.overlay };
         let gpu = if shot.needs_gpu() { Some(self.adapter.gpu()?) } else { None };

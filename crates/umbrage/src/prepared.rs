@@ -1,12 +1,13 @@
 //! A frame of a technique as hosts see it: first prepared, then recorded, and held to that order by
 //! its type.
 
-use crate::answer::RadianceTarget;
+use crate::answer::{Answer, RadianceTarget};
 use crate::casters::refuse_host_casters;
 use crate::checked::Checked;
 use crate::inline::Inline;
 use crate::technique::{InOrder, Technique};
 use crate::{error::Error, gpu::Gpu, passes::Passes, view::View, visibility::VisibilityTarget};
+use umbrage_core::LightKind;
 
 impl dyn Technique {
     /// Does everything that the CPU does for a frame: fits light views, chooses casters, makes
@@ -31,6 +32,9 @@ impl dyn Technique {
             refuse_host_casters("it needs more of them than depth")?;
         }
         let checked = Checked::new(view)?;
+        if self.answer() == Answer::Visibility && view.light.shape.kind() == LightKind::Environment {
+            return Err(no_share_of_a_sky());
+        }
         self.prepare_view(gpu, &checked.view(), InOrder::new())?;
         Ok(Prepared { technique: self, checked })
     }
@@ -43,6 +47,12 @@ impl dyn Technique {
     pub fn inline(&mut self, gpu: &Gpu, group: u32, prefix: &str) -> Result<Inline, Error> {
         Inline::new(gpu, self.lend(gpu)?, group, prefix)
     }
+}
+
+/// A sky shines from all sides in many colours: no one number tells how much of it a point sees.
+fn no_share_of_a_sky() -> Error {
+    let what = "the environment, whose answer is radiance, since it answers with visibility".into();
+    Error::Unsupported { technique: "this technique".into(), what }
 }
 
 /// A technique that is ready to record the view that it was prepared for, once.

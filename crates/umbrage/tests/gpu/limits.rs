@@ -4,7 +4,8 @@
 use crate::common::{gpu, pairs, scene};
 use crate::wedges::difference;
 use std::sync::{Arc, Mutex};
-use umbrage::core::glam::{DAffine3, DMat3, DVec2, DVec3};
+use umbrage::core::glam::{DAffine3, DMat3, DVec2, DVec3, Vec3};
+use umbrage::core::environment::{Environment, Sky};
 use umbrage::core::{Image, Light, LightShape, Scene, primitive};
 use umbrage::{Error, Gpu, Param, ParamKind, Registry, TechniqueInfo, baseline, find, techniques};
 use umbrage_renderer::{LightPass, Renderer};
@@ -205,6 +206,22 @@ fn techniques_with_maps_shadow_posed_casters_on_the_smallest_devices() {
         assert!(complaints.is_empty(), "{}: {}", info.id, complaints.join("\n"));
     }
     assert!(works > 10, "only {works} work");
+}
+
+/// No share of a light is an answer to a sky, and a host that asks for it is told so.
+#[test]
+fn techniques_of_shares_refuse_a_sky() {
+    let gpu = gpu();
+    let mut scene = scene("contact", 0.1);
+    scene.lights = vec![Environment::new(Sky::Constant(Vec3::ONE)).light()];
+    let technique = baseline::floor(&gpu);
+    let mut renderer = Renderer::new(&gpu, &scene, 24, 18, vec![LightPass { light: 0, technique }]).unwrap();
+    for info in techniques() {
+        let technique = info.default_settings().make(&gpu).unwrap();
+        let drawn = renderer.exchange(0, LightPass { light: 0, technique }).and_then(|_| renderer.frame(&scene.camera));
+        let text = drawn.unwrap_err().to_string();
+        assert!(text.contains("the environment"), "{}: {text}", info.id);
+    }
 }
 
 /// Wedges and caps that do not fit a binding come in rounds, which leaves the picture as it is.
