@@ -103,8 +103,12 @@ impl Texture {
         self.filtered(uv, |p| f32::from(p[3]) / 255.0)
     }
 
-    /// Linear RGB at texture coordinates `uv`, by the same filter.
+    /// Linear RGB at texture coordinates `uv`, by the same filter. Black for a picture without
+    /// texels, and for coordinates that are no numbers.
     pub fn color(&self, uv: Vec2) -> Vec3 {
+        if self.rgba.is_empty() || !uv.is_finite() {
+            return Vec3::ZERO;
+        }
         let linear = |c: u8| {
             let c = f32::from(c) / 255.0;
             if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
@@ -143,6 +147,16 @@ mod tests {
             assert_eq!(texture.alpha(Vec2::new(u, 0.3)), want, "u = {u}");
         }
         assert!((0.0..=1.0).contains(&texture.alpha(Vec2::new(f32::MAX, f32::MIN))));
+    }
+
+    #[test]
+    fn colours_are_means_of_linear_values() {
+        let mut texture = two_pixels(Sampling::default());
+        texture.rgba = vec![[0, 188, 0, 255], [255, 188, 0, 0]];
+        let middle = texture.color(Vec2::new(0.5, 0.3));
+        // 188 is the sRGB byte of a half.
+        assert!((middle - Vec3::new(0.5, 0.503, 0.0)).length() < 1e-3, "{middle}");
+        assert_eq!(texture.color(Vec2::NAN), Vec3::ZERO);
     }
 
     fn two_pixels(sampling: Sampling) -> Texture {

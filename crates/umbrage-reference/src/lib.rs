@@ -26,5 +26,5 @@ pub use kept::{Kept, Key, SceneKey, Traced};
 pub use light_seen::{Blocker, LightSeen, Spot};
 pub use progressive::Progressive;
 pub use radiance::{PathTracer, RadianceOptions, RadianceTruth};
-pub use tracer::Tracer;
+pub use tracer::{Hit, Tracer};
 pub use visibility::{Options, Truth};

@@ -31,6 +31,19 @@ pub struct Tracer {
     pub(crate) cutouts: Cutouts,
 }
 
+/// Where a ray meets a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Index into [`Scene::instances`].
+    pub instance: u32,
+    /// Index of the triangle in the instance's mesh.
+    pub triangle: u32,
+    /// Shares of its corners, which sum to 1.
+    pub barycentric: [f64; 3],
+    /// True where the ray comes from the side from which its corners go counter-clockwise.
+    pub is_front: bool,
+}
+
 /// What the tracer knows of an instance.
 #[derive(Clone, Copy)]
 pub(crate) struct InstanceFlags {
@@ -67,14 +80,14 @@ impl Tracer {
     }
 
     fn add(&mut self, scene: &Scene, instance: &Instance, triangles: &mut Vec<Triangle>) {
+        let number = self.instances.len() as u32;
+        let Instance { casts, receives, model, .. } = *instance;
+        self.instances.push(InstanceFlags { model: i32::try_from(model).unwrap_or(i32::MAX), casts, receives });
         if instance.mesh >= scene.meshes.len() {
             return;
         }
         let mesh = &*scene.posed_mesh(instance);
         let holes = self.cutouts.holes(scene, instance, mesh);
-        let number = self.instances.len() as u32;
-        let Instance { casts, receives, model, .. } = *instance;
-        self.instances.push(InstanceFlags { model: i32::try_from(model).unwrap_or(i32::MAX), casts, receives });
         if matches!(holes, Holes::All) {
             return;
         }
@@ -110,6 +123,21 @@ impl Tracer {
         let t_max = if to.w == 0.0 { f64::INFINITY } else { 1.0 - clear };
         let ray = Ray { origin: from - self.center, direction, t_min: clear, t_max };
         self.casting().is_blocked(&ray, None, &self.cutouts)
+    }
+
+    /// The first casting triangle on the way from the world point `from` along `direction`; `None`
+    /// where there is none. Triangles within 10⁻⁹ of the scene's size do not count, nor does
+    /// anything for a way that is not finite.
+    pub fn hit(&self, from: DVec3, direction: DVec3) -> Option<Hit> {
+        let t_min = CLEARANCE * self.scale / direction.length();
+        let ray = Ray { origin: from - self.center, direction, t_min, t_max: f64::INFINITY };
+        let (triangle, _) = self.casting().first(&ray, None, &self.cutouts)?;
+        Some(Hit {
+            instance: self.instance_of[triangle.id as usize],
+            triangle: self.index_of[triangle.id as usize],
+            barycentric: triangle.seen_from(ray.origin).barycentric(direction),
+            is_front: triangle.unit_normal().dot(direction) < 0.0,
+        })
     }
 
     /// The triangles that cast shadows.
