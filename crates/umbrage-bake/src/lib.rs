@@ -17,7 +17,8 @@
 //! let mut vector = [0.0; 25];
 //! transfer.meshes[0].stored.read(0, &mut vector);
 //! // Times the base colour this is what the point sends out.
-//! let radiance: f64 = sky.coefficients().iter().zip(vector).map(|(l, t)| l.x * f64::from(t)).sum();
+//! let products = sky.coefficients().iter().zip(vector).map(|(l, t)| l.x * f64::from(t));
+//! let radiance: f64 = products.sum();
 //! assert!(radiance <= 1.001);
 //! # Ok::<(), umbrage_bake::Error>(())
 //! ```

@@ -154,7 +154,7 @@ fn reflected_light_is_that_of_traced_paths() {
     assert!(off < 0.02, "{} against {}", baked_sum / count, traced_sum / count);
 }
 
-/// What comes to a point along a random path with so many rays.
+/// The light that reaches a point along a random path with so many rays.
 fn path(scene: &Scene, tracer: &Tracer, light: &Light, (from, normal): (DVec3, DVec3), rays: u32, seed: u32) -> DVec3 {
     let direction = random(normal, seed + rays);
     let Some(hit) = tracer.hit(from, direction) else { return light.radiance(direction) };

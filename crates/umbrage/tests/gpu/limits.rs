@@ -4,8 +4,8 @@
 use crate::common::{gpu, pairs, scene};
 use crate::wedges::difference;
 use std::sync::{Arc, Mutex};
-use umbrage::core::glam::{DAffine3, DMat3, DVec2, DVec3, Vec3};
 use umbrage::core::environment::{Environment, Sky};
+use umbrage::core::glam::{DAffine3, DMat3, DVec2, DVec3, Vec3};
 use umbrage::core::{Image, Light, LightShape, Scene, primitive};
 use umbrage::{Error, Gpu, Param, ParamKind, Registry, TechniqueInfo, baseline, find, techniques};
 use umbrage_renderer::{LightPass, Renderer};
