@@ -35,7 +35,7 @@ settings! {
         /// What becomes of the grain: it stays; or pixels that show the same plane are averaged as
         /// far as the penumbra is even; or that, and then the mean of up to 64 frames, each with
         /// other taps, at points where nothing changes.
-        denoise: Denoise = Denoise::Spatial,
+        denoise: Denoise = Denoise::Off,
     }
 }
 
