@@ -14,7 +14,7 @@ const MOST_SECONDS: f64 = 480.0;
 /// that hold on every driver, and files a benchmark, all on the first hardware adapter; with `any`
 /// on the first adapter whatever it is, to try this out.
 pub fn run(any: bool) -> Result<()> {
-    shell::build(Profile::Dev)?;
+    shell::build_tests()?;
     shell::build(Profile::Release)?;
     let adapters = Adapters::find()?;
     let Some(card) = adapters.hardware.or(any.then_some(0)) else {

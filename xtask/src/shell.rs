@@ -57,6 +57,14 @@ pub fn build(profile: Profile) -> Result<()> {
     run(command)
 }
 
+/// Builds all tests, and with them the command that [`tested_umbrage`] runs. Building it by itself
+/// would compile much of what it needs a second time, with other features.
+pub fn build_tests() -> Result<()> {
+    let mut build = cargo();
+    build.args(["test", "--workspace", "--no-run"]);
+    run(build)
+}
+
 /// Prints the command, runs it, and fails where it fails.
 pub fn run(mut command: Command) -> Result<()> {
     let line = text(&command);

@@ -11,11 +11,7 @@ const WITH_PYTHON: &str = "the_numbers_are_those_of_the_script";
 /// Tests that need the shared references are ignored by name; where the references are there they
 /// run, else the last lines say how many did not.
 pub fn run(rest: &[&str]) -> Result<()> {
-    // The tests are built first, with their command: building that by itself would compile wgpu
-    // twice.
-    let mut build = shell::cargo();
-    build.args(["test", "--workspace", "--no-run"]);
-    shell::run(build)?;
+    shell::build_tests()?;
     setup::run_tested()?;
     let missing = Missing::find();
     let mut command = shell::cargo();

@@ -26,7 +26,7 @@ const SCREEN: &str = ":83";
 /// Opens the laboratory and uses it: keys, a drag, sizes down to one pixel, out of sight and back.
 pub fn run() -> Result<()> {
     install()?;
-    shell::build(shell::Profile::Dev)?;
+    shell::build_tests()?;
     let folder = std::env::current_dir()?.join("out").join("window");
     if folder.exists() {
         std::fs::remove_dir_all(&folder)?;

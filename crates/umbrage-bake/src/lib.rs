@@ -31,7 +31,6 @@ mod gather;
 mod key;
 mod rays;
 mod settings;
-
 mod surface;
 mod tessellate;
 mod wire;

@@ -246,6 +246,23 @@ impl LightShape {
         c.truncate() - p * c.w
     }
 
+    /// Moves the light, metres. Parallel light and the sky stay: they come from everywhere.
+    pub fn shift(&mut self, by: DVec3) {
+        match self {
+            Self::Directional { .. } | Self::Environment(_) => {}
+            Self::Line { from, to } => {
+                *from += by;
+                *to += by;
+            }
+            Self::Point { position }
+            | Self::Spot { position, .. }
+            | Self::Sphere { position, .. }
+            | Self::Ellipsoid { position, .. }
+            | Self::Disc { position, .. }
+            | Self::Rect { position, .. } => *position += by,
+        }
+    }
+
     /// Radius of the smallest known sphere around [`LightShape::center`] that contains the light; 0
     /// for hard lights. For a sun, the sine of half its angle: the radius at distance 1; for the
     /// environment 1.

@@ -34,7 +34,7 @@ pub struct Tracer {
 /// Where a ray meets a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// Index into [`Scene::instances`].
+    /// Number among those of [`Scene::instances`] whose mesh is there.
     pub instance: u32,
     /// Index of the triangle in the instance's mesh.
     pub triangle: u32,
@@ -80,14 +80,14 @@ impl Tracer {
     }
 
     fn add(&mut self, scene: &Scene, instance: &Instance, triangles: &mut Vec<Triangle>) {
-        let number = self.instances.len() as u32;
-        let Instance { casts, receives, model, .. } = *instance;
-        self.instances.push(InstanceFlags { model: i32::try_from(model).unwrap_or(i32::MAX), casts, receives });
         if instance.mesh >= scene.meshes.len() {
             return;
         }
         let mesh = &*scene.posed_mesh(instance);
         let holes = self.cutouts.holes(scene, instance, mesh);
+        let number = self.instances.len() as u32;
+        let Instance { casts, receives, model, .. } = *instance;
+        self.instances.push(InstanceFlags { model: i32::try_from(model).unwrap_or(i32::MAX), casts, receives });
         if matches!(holes, Holes::All) {
             return;
         }

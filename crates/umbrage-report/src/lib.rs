@@ -58,7 +58,8 @@ not_in_browsers! {
     mod truth;
     mod way;
 
-    pub use bench::{Bench, BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene, BenchTraffic, Earlier, NoBenchmark};
+    pub use bench::{Bench, BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene, BenchTraffic};
+    pub use bench::{Earlier, NoBenchmark};
     pub use path_traced::PathTraced;
     pub use column::{COLUMNS, Column, RADIANCE_COLUMNS};
     pub use compare::{Compare, Outcome};

@@ -224,23 +224,13 @@ fn circle(frame: u32, number: usize) -> [f64; 2] {
 
 fn moved(shape: &LightShape, [x, z]: [f64; 2], scene_radius: f64) -> LightShape {
     let mut shape = shape.clone();
-    let by = DVec3::new(x, 0.0, z) * (LIGHT_SHARE * scene_radius);
     match &mut shape {
         LightShape::Directional { direction, .. } => {
             let (a, b) = direction.any_orthonormal_pair();
             *direction = (*direction + (a * x + b * z) * LIGHT_TURN_DEG.to_radians().tan()).normalize();
         }
-        LightShape::Line { from, to } => {
-            *from += by;
-            *to += by;
-        }
         LightShape::Environment(environment) => environment.rotate_deg += x * LIGHT_TURN_DEG,
-        LightShape::Point { position }
-        | LightShape::Spot { position, .. }
-        | LightShape::Sphere { position, .. }
-        | LightShape::Ellipsoid { position, .. }
-        | LightShape::Disc { position, .. }
-        | LightShape::Rect { position, .. } => *position += by,
+        other => other.shift(DVec3::new(x, 0.0, z) * (LIGHT_SHARE * scene_radius)),
     }
     shape
 }

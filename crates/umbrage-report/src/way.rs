@@ -78,19 +78,7 @@ fn across(shape: &LightShape, camera: &Camera, share: f64) -> LightShape {
     }
     let by = camera.axes()[0] * (share * center.truncate().distance(camera.target));
     let mut shape = shape.clone();
-    match &mut shape {
-        LightShape::Directional { .. } | LightShape::Environment(_) => {}
-        LightShape::Line { from, to } => {
-            *from += by;
-            *to += by;
-        }
-        LightShape::Point { position }
-        | LightShape::Spot { position, .. }
-        | LightShape::Sphere { position, .. }
-        | LightShape::Ellipsoid { position, .. }
-        | LightShape::Disc { position, .. }
-        | LightShape::Rect { position, .. } => *position += by,
-    }
+    shape.shift(by);
     shape
 }
 

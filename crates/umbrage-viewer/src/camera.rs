@@ -78,24 +78,7 @@ pub(crate) fn drag_light(light: &mut Light, camera: &Camera, drag: DVec2) {
 
 /// Moves a light, metres; a parallel light stays.
 fn move_light(light: &mut Light, by: DVec3) {
-    move_shape(&mut light.shape, by);
-}
-
-/// The same for the shape of a light.
-pub(crate) fn move_shape(shape: &mut LightShape, by: DVec3) {
-    match shape {
-        LightShape::Directional { .. } | LightShape::Environment(_) => {}
-        LightShape::Line { from, to } => {
-            *from += by;
-            *to += by;
-        }
-        LightShape::Point { position }
-        | LightShape::Spot { position, .. }
-        | LightShape::Sphere { position, .. }
-        | LightShape::Ellipsoid { position, .. }
-        | LightShape::Disc { position, .. }
-        | LightShape::Rect { position, .. } => *position += by,
-    }
+    light.shape.shift(by);
 }
 
 /// Raises a light by a share of the scene's radius; a parallel one climbs by as many radians.

@@ -154,7 +154,7 @@ pub(crate) fn drag(shape: &mut LightShape, grip: &Grip, to: DVec3, arm: f64) {
         return;
     }
     match grip.handle {
-        Handle::Move(_) => crate::camera::move_shape(shape, by),
+        Handle::Move(_) => shape.shift(by),
         Handle::Aim => turn(shape, grip, to),
         Handle::Size(axis) => resize(shape, axis, grip, to, arm),
         Handle::End(end) => {

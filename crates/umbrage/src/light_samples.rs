@@ -9,11 +9,11 @@ use crate::{
     passes::Passes,
     settings::Settings,
     shader::Shader,
-    technique::{DebugView, InOrder, Inside, Stats, Technique},
+    technique::{InOrder, Inside, Stats, Technique, inside_of},
     view::View,
     visibility::VisibilityTarget,
 };
-use umbrage_core::{Light, LightShape, light_view::LightView, sampling::hard_lights};
+use umbrage_core::{Light, LightShape, sampling::hard_lights};
 
 /// Shader of the adaptor, for the registry's tests.
 pub const SHADER: Shader = Shader::new("light samples", include_str!("wgsl/light_samples.wgsl"));
@@ -235,6 +235,8 @@ impl Technique for LightSamples {
 
 /// All but the sums is the inner technique's, and what it says is of the last sample.
 impl Inside for LightSamples {
+    inside_of!(inner);
+
     fn stats(&self) -> Stats {
         self.stats
     }
@@ -244,31 +246,11 @@ impl Inside for LightSamples {
         self.inner.inside_mut().forget();
     }
 
-    fn light_views(&self) -> &[LightView] {
-        self.inner.inside().light_views()
-    }
-
-    fn split_distances(&self) -> &[f64] {
-        self.inner.inside().split_distances()
-    }
-
-    fn counts(&self) -> Vec<(&'static str, u64)> {
-        self.inner.inside().counts()
-    }
-
     fn reads(&self, pass: &str) -> Option<u64> {
         // One sample, and what it is added to.
         let of_sums = [("add a sample", 4), ("mean of samples", 2), (HISTORY_PASS, HISTORY_BYTES)];
         let own = of_sums.iter().find(|(name, _)| *name == pass).map(|(_, bytes)| *bytes);
         own.or_else(|| self.inner.inside().reads(pass))
-    }
-
-    fn inspect(&mut self, view: Option<&str>) {
-        self.inner.inside_mut().inspect(view);
-    }
-
-    fn debug_views(&self) -> Vec<DebugView<'_>> {
-        self.inner.inside().debug_views()
     }
 }
 

@@ -158,6 +158,33 @@ pub trait Inside {
     }
 }
 
+/// Passes on what is inside the technique in a field: the body of [`Inside`] for wrappers, but for
+/// what they add to.
+macro_rules! inside_of {
+    ($field:ident) => {
+        fn light_views(&self) -> &[umbrage_core::light_view::LightView] {
+            self.$field.inside().light_views()
+        }
+
+        fn split_distances(&self) -> &[f64] {
+            self.$field.inside().split_distances()
+        }
+
+        fn counts(&self) -> Vec<(&'static str, u64)> {
+            self.$field.inside().counts()
+        }
+
+        fn inspect(&mut self, view: Option<&str>) {
+            self.$field.inside_mut().inspect(view);
+        }
+
+        fn debug_views(&self) -> Vec<$crate::technique::DebugView<'_>> {
+            self.$field.inside().debug_views()
+        }
+    };
+}
+pub(crate) use inside_of;
+
 /// Cost of a frame apart from time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stats {

@@ -2,7 +2,7 @@
 
 use super::packages::Unpacked;
 use super::results::{Results, cells};
-use crate::shell::{self, Profile};
+use crate::shell;
 use anyhow::{Context, Result, bail};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -83,7 +83,7 @@ impl Driver {
         if let Some(adapter) = &self.choice {
             arguments.extend(["--adapter", adapter]);
         }
-        let mut command = shell::umbrage(Profile::Dev, &arguments);
+        let mut command = shell::tested_umbrage(&arguments)?;
         self.select(&mut command);
         let start = Instant::now();
         let report: Value =
@@ -104,7 +104,7 @@ impl Driver {
     /// The names of tests that fail on this driver.
     fn test(&self) -> Result<Vec<String>> {
         let mut command = shell::cargo();
-        command.args(["test", "--quiet", "--package", "umbrage", "--test", "gpu", "--"]).args(TESTS);
+        command.args(["test", "--quiet", "--workspace", "--test", "gpu", "--"]).args(TESTS);
         self.select(&mut command);
         if let Some(adapter) = &self.choice {
             command.env("UMBRAGE_ADAPTER", adapter);

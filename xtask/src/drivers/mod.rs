@@ -4,10 +4,7 @@ mod driver;
 mod packages;
 mod results;
 
-use crate::{
-    setup,
-    shell::{self, Profile},
-};
+use crate::{setup, shell};
 use anyhow::{Context, Result, bail};
 use driver::{Driver, Matrix};
 use serde_json::Value;
@@ -46,7 +43,8 @@ const CARD: Matrix =
 pub fn run(arguments: &[&str]) -> Result<()> {
     let is_core = arguments.contains(&"--core");
     let matrix = if is_core { CORE } else { WHOLE };
-    setup::run(Profile::Dev)?;
+    shell::build_tests()?;
+    setup::run_tested()?;
     let mut drivers = vec![Driver::installed()];
     if !is_core {
         drivers.extend(other_adapters()?);
@@ -108,7 +106,7 @@ fn unpacked(is_core: bool) -> Result<Vec<Driver>> {
 /// All adapters but the first, which is what the command takes by itself. Those that can't do the
 /// work, such as those of OpenGL, are named with the reason.
 fn other_adapters() -> Result<Vec<Driver>> {
-    let list = shell::output(shell::umbrage(Profile::Dev, &["list", "--json"]))?;
+    let list = shell::output(shell::tested_umbrage(&["list", "--json"])?)?;
     let list: Value = serde_json::from_str(&list).context("`umbrage list --json` printed no JSON")?;
     let adapters = list["adapters"].as_array().context("`umbrage list --json` has no list of adapters")?;
     let name = |adapter: &Value| adapter["name"].as_str().unwrap_or("?").to_string();

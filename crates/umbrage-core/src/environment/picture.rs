@@ -1,5 +1,6 @@
 //! Equirectangular pictures.
 
+use crate::Fnv;
 use crate::image::Image;
 use glam::{DVec2, DVec3, Vec3};
 use std::f64::consts::{PI, TAU};
@@ -11,7 +12,7 @@ use std::sync::Arc;
 pub struct SkyPicture {
     image: Arc<Image<[f32; 3]>>,
     /// Of the pixels, so that text about it tells pictures apart.
-    hash: u64,
+    hash: u128,
 }
 
 /// The direction, a unit vector, that the point (u, v) of a picture shows; see the
@@ -57,10 +58,9 @@ impl SkyPicture {
                 "has the light {r}, {g}, {b} at pixel ({x}, {y}); radiance is finite and not negative: mend the picture"
             ));
         }
-        // FNV-1a over words.
-        let words = image.data.iter().flatten().map(|c| c.to_bits());
-        let hash = words.fold(0xcbf2_9ce4_8422_2325, |h: u64, w| (h ^ u64::from(w)).wrapping_mul(0x0100_0000_01b3));
-        Ok(Self { image: Arc::new(image), hash })
+        let mut hash = Fnv::default();
+        image.data.iter().flatten().for_each(|c| hash.add(&c.to_le_bytes()));
+        Ok(Self { image: Arc::new(image), hash: hash.value() })
     }
 
     /// The pixels.
@@ -86,6 +86,6 @@ impl SkyPicture {
 
 impl fmt::Debug for SkyPicture {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "SkyPicture({} × {}, {:016x})", self.image.width, self.image.height, self.hash)
+        write!(f, "SkyPicture({} × {}, {:032x})", self.image.width, self.image.height, self.hash)
     }
 }

@@ -5,7 +5,7 @@ use super::light::Light;
 use super::order::{Order, index};
 use super::rotation::Rotation;
 use crate::image::Image;
-use glam::{DMat3, DQuat, DVec3, Vec3, Vec3A};
+use glam::{DMat3, DQuat, DVec3, Vec3A};
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 const MOST: usize = 10;
@@ -15,12 +15,14 @@ type Ring = [Vec3A; 2 * MOST - 1];
 
 /// The coefficients of an equirectangular picture of radiance, in the orientation of the scene
 /// format: row 0 is +Y, the middle of the picture is −Z, three quarters of its width is +X. Each
-/// texel counts with the solid angle of its rectangle in θ and φ. A picture without texels is
-/// black.
+/// texel counts with the solid angle of its rectangle in θ and φ, as those of [`Sky::picture`] are
+/// made. A picture without texels is black.
+///
+/// [`Sky::picture`]: crate::environment::Sky::picture
 ///
 /// The functions are products of one of θ and one of φ about the picture's own pole, so a row is
 /// summed for each multiple of φ, and the sums for each degree; the axes are exchanged at the end.
-pub fn project_equirect(order: Order, picture: &Image<Vec3>) -> Light {
+pub fn project_equirect(order: Order, picture: &Image<[f32; 3]>) -> Light {
     let (width, height) = (picture.width as usize, picture.height as usize);
     let mut light = vec![DVec3::ZERO; order.functions()];
     if picture.data.len() < width * height || picture.data.is_empty() || width == 0 {
@@ -52,7 +54,7 @@ fn multiples(order: Order, column: usize, width: usize) -> [f32; 2 * MOST - 1] {
     values
 }
 
-fn ring(order: Order, row: &[Vec3], columns: &[[f32; 2 * MOST - 1]]) -> Ring {
+fn ring(order: Order, row: &[[f32; 3]], columns: &[[f32; 2 * MOST - 1]]) -> Ring {
     let mut sums = [Vec3A::ZERO; 2 * MOST - 1];
     let used = 2 * order.bands() - 1;
     for (texel, factors) in row.iter().zip(columns) {
@@ -82,7 +84,10 @@ fn add_row(order: Order, sums: &Ring, cos: f64, solid_angle: f64, light: &mut [D
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::environment::{Gradient, Sky};
     use crate::harmonics::evaluate;
+    use crate::harmonics::project;
+    use glam::Vec3;
 
     /// The direction of a texel, as the scene format has it.
     fn direction(x: u32, y: u32, (width, height): (u32, u32)) -> DVec3 {
@@ -94,7 +99,7 @@ mod tests {
     #[test]
     fn a_picture_has_the_sum_over_its_texels() {
         let size = (12, 7);
-        let picture = Image::from_fn(size.0, size.1, |x, y| Vec3::new(x as f32 * 0.1, (x * y % 5) as f32, y as f32));
+        let picture = Image::from_fn(size.0, size.1, |x, y| [x as f32 * 0.1, (x * y % 5) as f32, y as f32]);
         let mut want = vec![DVec3::ZERO; 100];
         let mut basis = [0.0; 100];
         for (i, texel) in (0..).zip(&picture.data) {
@@ -102,7 +107,7 @@ mod tests {
             let edge = |y: u32| (PI * f64::from(y) / f64::from(size.1)).cos();
             let solid_angle = TAU / f64::from(size.0) * (edge(y) - edge(y + 1));
             evaluate(Order::MAX, direction(x, y, size), &mut basis);
-            want.iter_mut().zip(basis).for_each(|(sum, y)| *sum += texel.as_dvec3() * y * solid_angle);
+            want.iter_mut().zip(basis).for_each(|(sum, y)| *sum += Vec3::from(*texel).as_dvec3() * y * solid_angle);
         }
         let found = project_equirect(Order::MAX, &picture);
         let worst = want.iter().zip(found.coefficients()).map(|(a, b)| (*a - *b).length()).fold(0.0, f64::max);
@@ -114,7 +119,7 @@ mod tests {
         // A bright texel at the top, in the middle, and at three quarters; flipped pictures give
         // the opposite signs.
         let bright = |x: u32, y: u32| {
-            let picture = Image::from_fn(64, 32, |i, j| Vec3::splat(f32::from(u8::from((i, j) == (x, y)))));
+            let picture = Image::from_fn(64, 32, |i, j| [f32::from(u8::from((i, j) == (x, y))); 3]);
             let light = project_equirect(Order::default(), &picture);
             let c = light.coefficients();
             DVec3::new(c[3].x, c[1].x, c[2].x).normalize()
@@ -125,12 +130,22 @@ mod tests {
     }
 
     #[test]
+    fn a_picture_of_a_sky_keeps_its_light() {
+        let sky = Sky::Gradient(Gradient { zenith: Vec3::ONE, horizon: Vec3::splat(0.5), nadir: Vec3::ZERO });
+        // What functions lose that count at the middles of texels falls with their area.
+        let light = project_equirect(Order::default(), &sky.picture(256, 128));
+        let want = project(Order::default(), 64, |direction| sky.radiance(direction));
+        let worst = light.coefficients().iter().zip(want.coefficients()).map(|(a, b)| (*a - *b).length());
+        assert!(worst.fold(0.0, f64::max) < 3e-4, "{light:?} instead of {want:?}");
+    }
+
+    #[test]
     fn pictures_without_texels_are_black() {
         let order = Order::default();
-        for picture in [Image::filled(0, 0, Vec3::ONE), Image { width: 4, height: 4, data: vec![Vec3::ONE; 3] }] {
+        for picture in [Image::filled(0, 0, [1.0; 3]), Image { width: 4, height: 4, data: vec![[1.0; 3]; 3] }] {
             assert_eq!(project_equirect(order, &picture), Light::black(order));
         }
-        let one = project_equirect(order, &Image::filled(1, 1, Vec3::ONE));
+        let one = project_equirect(order, &Image::filled(1, 1, [1.0; 3]));
         assert!((one.coefficients()[0].x - (4.0 * PI).sqrt()).abs() < 1e-6);
     }
 }

@@ -32,7 +32,7 @@ fn build(detail: f32) -> Scene {
     let plane = scene.add_mesh(primitive::plane());
     let cube = scene.add_mesh(primitive::cube());
     let (columns, rows) = (detail.segments(64, 12), detail.segments(32, 6));
-    let ball = scene.add_mesh(primitive::sphere(columns, rows));
+    let sphere = scene.add_mesh(primitive::sphere(columns, rows));
     let ring = scene.add_mesh(primitive::torus(0.42, 0.16, columns, rows));
     let ground = scene.add_material(matte(0.52, 0.48, 0.4));
     let plinth = scene.add_material(matte(0.74, 0.73, 0.7));
@@ -43,10 +43,10 @@ fn build(detail: f32) -> Scene {
     for (x, z, height) in [(-1.5, 0.5, 0.55), (0.0, -0.6, 0.95), (1.5, 0.3, 0.35)] {
         scene.place(cube, plinth, standing(DVec3::new(x, 0.0, z), DVec3::new(0.85, height, 0.85), 12.0 * x));
     }
-    scene.place(ball, jade, sized(DVec3::new(-1.5, 1.0, 0.5), DVec3::splat(0.45), 0.0));
+    scene.place(sphere, jade, sized(DVec3::new(-1.5, 1.0, 0.5), DVec3::splat(0.45), 0.0));
     let upright = DMat3::from_rotation_y(0.4) * DMat3::from_rotation_x(1.45);
     scene.place(ring, garnet, glam::DAffine3::from_mat3_translation(upright, DVec3::new(0.0, 1.53, -0.6)));
-    scene.place(ball, amber, sized(DVec3::new(1.5, 0.95, 0.3), DVec3::new(0.42, 0.6, 0.42), 0.0));
+    scene.place(sphere, amber, sized(DVec3::new(1.5, 0.95, 0.3), DVec3::new(0.42, 0.6, 0.42), 0.0));
     let (sun, warm) = (sunlight(-40.0, 38.0), [1.0, 0.95, 0.86]);
     scene.lights = vec![
         light(LightShape::Directional { direction: sun, angle_deg: 0.0 }, warm, 0.9),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use umbrage_core::environment::{Daylight, Gradient, SkyPicture, direction_of, solid_angle};
-use umbrage_core::glam::{DAffine3, DVec2, DVec3, Vec3};
+use umbrage_core::glam::{DAffine3, DVec2, DVec3, Vec3, Vec4};
 use umbrage_core::{Camera, Environment, Image, Material, Mesh, Scene, Sky, primitive};
 use umbrage_reference::{PathTracer, RadianceOptions, RadianceTruth, Tracer};
 
@@ -58,6 +58,18 @@ fn a_plane_under_an_even_sky_is_as_bright_as_its_albedo() {
         assert!(truth.radiance.data.iter().flatten().all(|c| (f64::from(*c) / albedo - 1.0).abs() < 1e-6));
         assert!(truth.error.data.iter().all(|e| *e < 1e-6));
     }
+}
+
+/// A scene of a host may name meshes that are gone.
+#[test]
+fn an_instance_without_its_mesh_lends_its_colour_to_nobody() {
+    let mut scene = plane(Sky::Constant(Vec3::ONE));
+    let red = scene.add_material(Material { base_color: Vec4::new(0.9, 0.0, 0.0, 1.0), ..Material::default() });
+    scene.place(99, red, DAffine3::IDENTITY);
+    let gone = scene.instances.pop().expect("what was placed");
+    scene.instances.insert(0, gone);
+    let truth = trace(&scene, (6, 4), 4, 1);
+    assert!(truth.radiance.data.iter().flatten().all(|c| (c / ALBEDO - 1.0).abs() < 1e-5));
 }
 
 #[test]

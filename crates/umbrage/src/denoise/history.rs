@@ -136,11 +136,14 @@ impl MeanOverFrames {
         let center = view.light.shape.center();
         let is_parallel = center.w == 0.0;
         let light = if is_parallel { center.truncate().normalize_or(DVec3::Y) } else { center.truncate() - eye };
+        let radius = view.light.shape.radius();
+        // Parallel light has the sine of its half angle there, and the shader needs the tangent.
+        let extent = if is_parallel { radius.asin().tan() } else { radius };
         let mut data = History {
             eye: Eye::new(view),
             last_clip_from_eye: (clip_from_eye(last) * from_last_eye).as_mat4().to_cols_array_2d(),
             last_eye: (last.eye - eye).as_vec3().extend((pixel.y / pixel.z.abs().max(1e-30)) as f32).to_array(),
-            light: light.as_vec3().extend(radius(&view.light.shape) as f32).to_array(),
+            light: light.as_vec3().extend(extent as f32).to_array(),
             size: [size.0 as f32, size.1 as f32],
             frames: self.frames as f32,
             is_parallel: u32::from(is_parallel),
@@ -217,20 +220,5 @@ impl MeanOverFrames {
             };
             *known = Some(pipeline.beside(&self.gpu, &[FORMAT.into()]));
         }
-    }
-}
-
-/// How far the light reaches from its centre, metres; of parallel light the tangent of half its
-/// angle.
-fn radius(light: &LightShape) -> f64 {
-    match *light {
-        LightShape::Directional { angle_deg, .. } => (angle_deg.to_radians() * 0.5).tan(),
-        LightShape::Point { .. } | LightShape::Spot { .. } => 0.0,
-        LightShape::Sphere { radius, .. } | LightShape::Disc { radius, .. } => radius,
-        LightShape::Ellipsoid { radii, .. } => radii.max_element(),
-        LightShape::Rect { size, .. } => size.length() * 0.5,
-        LightShape::Line { from, to } => from.distance(to) * 0.5,
-        // From all sides: whatever moves may hide some of it from any point.
-        LightShape::Environment(_) => 1e9,
     }
 }

@@ -6,14 +6,12 @@ mod movers;
 mod spatial;
 
 use crate::choices;
-
 use crate::inline::Lent;
 use crate::shader::Shader;
-use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
+use crate::technique::{InOrder, Inside, Stats, Technique, inside_of};
 use crate::{Error, Gpu, Passes, Settings, View, VisibilityTarget};
 pub(crate) use history::{BYTES as HISTORY_BYTES, MOST_FRAMES, MeanOverFrames, PASS as HISTORY_PASS};
 use spatial::SpatialFilter;
-use umbrage_core::light_view::LightView;
 
 /// Shaders of the denoiser, for the registry's tests.
 pub(crate) const SHADERS: [&Shader; 2] = [&spatial::SHADER, &history::SHADER];
@@ -135,6 +133,8 @@ impl Technique for Denoised {
 
 /// All but the filter is the inner technique's.
 impl Inside for Denoised {
+    inside_of!(inner);
+
     fn stats(&self) -> Stats {
         let stats = self.inner.inside().stats();
         let own = if self.is_grainy { 1 + u32::from(self.mean.is_some()) } else { 0 };
@@ -148,32 +148,12 @@ impl Inside for Denoised {
         self.inner.inside_mut().forget();
     }
 
-    fn light_views(&self) -> &[LightView] {
-        self.inner.inside().light_views()
-    }
-
-    fn split_distances(&self) -> &[f64] {
-        self.inner.inside().split_distances()
-    }
-
-    fn counts(&self) -> Vec<(&'static str, u64)> {
-        self.inner.inside().counts()
-    }
-
     fn reads(&self, pass: &str) -> Option<u64> {
         match pass {
             spatial::PASS => Some(spatial::BYTES),
             HISTORY_PASS => Some(HISTORY_BYTES),
             _ => self.inner.inside().reads(pass),
         }
-    }
-
-    fn inspect(&mut self, view: Option<&str>) {
-        self.inner.inside_mut().inspect(view);
-    }
-
-    fn debug_views(&self) -> Vec<DebugView<'_>> {
-        self.inner.inside().debug_views()
     }
 }
 

@@ -1,11 +1,10 @@
 //! A frame: maps, visibility, blur.
 
 use super::blur::ScreenBlur;
-use crate::technique::{DebugView, InOrder, Inside, Stats, Technique};
+use crate::technique::{InOrder, Inside, Stats, Technique, inside_of};
 use crate::{
     error::Error, gpu::Gpu, inline::Lent, passes::Passes, settings::Settings, view::View, visibility::VisibilityTarget,
 };
-use umbrage_core::light_view::LightView;
 
 pub(super) struct Blurred {
     source: Box<dyn Technique>,
@@ -69,6 +68,8 @@ impl Technique for Blurred {
 
 /// All of it is the source's, but for what the blur costs.
 impl Inside for Blurred {
+    inside_of!(source);
+
     fn stats(&self) -> Stats {
         let mut stats = self.source.inside().stats();
         if let Some(blur) = &self.blur {
@@ -83,28 +84,8 @@ impl Inside for Blurred {
         self.source.inside_mut().forget();
     }
 
-    fn light_views(&self) -> &[LightView] {
-        self.source.inside().light_views()
-    }
-
-    fn split_distances(&self) -> &[f64] {
-        self.source.inside().split_distances()
-    }
-
-    fn counts(&self) -> Vec<(&'static str, u64)> {
-        self.source.inside().counts()
-    }
-
     fn reads(&self, pass: &str) -> Option<u64> {
         self.source.inside().reads(pass)
-    }
-
-    fn inspect(&mut self, view: Option<&str>) {
-        self.source.inside_mut().inspect(view);
-    }
-
-    fn debug_views(&self) -> Vec<DebugView<'_>> {
-        self.source.inside().debug_views()
     }
 }
 
