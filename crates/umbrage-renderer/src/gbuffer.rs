@@ -1,12 +1,17 @@
-//! Depth, normals and materials of the visible surfaces; ambient and emitted light at once.
+//! Depth, normals and looks of the visible surfaces.
 
-use crate::targets::{GBuffer, PACKED, WIDE, depth_format};
+use crate::targets::{GBuffer, PACKED, SURFACE, depth_format};
 use umbrage::fullscreen::{UNIFORM, attachment, bind, layout};
-use umbrage::{Casters, Gpu, Passes, SeenCasters, Shader, shader_struct};
+use umbrage::{Casters, Gpu, Module, Passes, SeenCasters, SeenSurface, Shader, shader_struct};
 use umbrage_core::{CameraView, glam::DMat4};
 
+/// What the G-buffer has of a surface, and how shading reads it.
+pub const SURFACE_MODULE: Module = Module { name: "surface", source: include_str!("surface.wgsl") };
+
 /// The shader.
-pub const SHADER: Shader = Shader::new("G-buffer", include_str!("gbuffer.wgsl")).with_layouts(&[GBufferView::LAYOUT]);
+pub const SHADER: Shader = Shader::new("G-buffer", include_str!("gbuffer.wgsl"))
+    .with_modules(&[SURFACE_MODULE])
+    .with_layouts(&[GBufferView::LAYOUT]);
 
 shader_struct! {
     /// The camera as the vertex shader needs it.
@@ -14,17 +19,20 @@ shader_struct! {
         clip_from_world: [[f32; 4]; 4],
         eye: [f32; 3],
         spare: f32,
-        ambient: [f32; 3],
-        more_spare: f32,
         sight: [f32; 3],
         last_spare: f32,
     }
 }
 
+/// Shaders of vertices and of fragments: for surfaces of one colour, textured and masked ones.
+const ENTRIES: [[&str; 2]; 3] =
+    [["plain_vertex", "plain"], ["textured_vertex", "textured"], ["textured_vertex", "masked"]];
+
 /// Draws the G-buffer.
 pub(crate) struct GBufferPass {
-    /// For opaque surfaces and for those with an alpha mask.
-    pipelines: [wgpu::RenderPipeline; 2],
+    /// For surfaces of one colour, textured ones and those with an alpha mask; each with its back
+    /// faces, and without.
+    pipelines: [[wgpu::RenderPipeline; 2]; 3],
     seen: SeenCasters,
     uniforms: wgpu::Buffer,
     bind_group: wgpu::BindGroup,
@@ -36,14 +44,15 @@ impl GBufferPass {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniforms = gpu.buffer("camera", &[GBufferView::default()], usage);
         Self {
-            pipelines: ["opaque", "masked"].map(|entry| pipeline(gpu, &view_layout, entry)),
+            pipelines: ENTRIES
+                .map(|entry| [None, Some(wgpu::Face::Back)].map(|cull| pipeline(gpu, &view_layout, entry, cull))),
             seen: SeenCasters::default(),
             bind_group: bind(gpu, "camera", &view_layout, &[uniforms.as_entire_binding()]),
             uniforms,
         }
     }
 
-    /// Draws what `camera` sees of the casters, with ambient and emitted light.
+    /// Draws what `camera` sees of the casters.
     pub fn record(
         &mut self,
         gpu: &Gpu,
@@ -51,14 +60,12 @@ impl GBufferPass {
         target: &GBuffer,
         casters: &Casters,
         camera: &CameraView,
-        ambient: [f32; 3],
     ) {
         let clip_from_world = camera.clip_from_world() * DMat4::from_translation(casters.origin());
         self.seen.find(gpu, passes, casters, camera);
         let data = GBufferView {
             clip_from_world: clip_from_world.as_mat4().to_cols_array_2d(),
             eye: (camera.eye - casters.origin()).as_vec3().to_array(),
-            ambient,
             sight: if camera.is_parallel() { camera.forward().as_vec3().to_array() } else { [0.0; 3] },
             ..GBufferView::default()
         };
@@ -69,15 +76,22 @@ impl GBufferPass {
             depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
             stencil_ops: None,
         };
-        let targets = [&target.normal_view, &target.shading_view, &target.color_view, &target.radiance_view].map(clear);
+        let targets = [&target.normal_view, &target.surface_view].map(clear);
         let mut pass = passes.render("gbuffer", &targets, Some(depth));
         pass.set_bind_group(0, &self.bind_group, &[]);
-        let [opaque, masked] = &self.pipelines;
-        self.seen.draw(&mut pass, casters, opaque, masked);
+        self.seen.draw(&mut pass, casters, |surface: SeenSurface| {
+            let look = if surface.masked { 2 } else { usize::from(surface.textured) };
+            &self.pipelines[look][usize::from(surface.one_sided)]
+        });
     }
 }
 
-fn pipeline(gpu: &Gpu, view_layout: &wgpu::BindGroupLayout, entry: &str) -> wgpu::RenderPipeline {
+fn pipeline(
+    gpu: &Gpu,
+    view_layout: &wgpu::BindGroupLayout,
+    [vertex, fragment]: [&str; 2],
+    cull_mode: Option<wgpu::Face>,
+) -> wgpu::RenderPipeline {
     let module = SHADER.module(gpu);
     let [casters, texture] = &SeenCasters::layouts(gpu);
     let layout = gpu.pipeline_layout(&[Some(view_layout), Some(casters), Some(texture)]);
@@ -86,11 +100,11 @@ fn pipeline(gpu: &Gpu, view_layout: &wgpu::BindGroupLayout, entry: &str) -> wgpu
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module: &module,
-            entry_point: Some("vertex"),
+            entry_point: Some(vertex),
             compilation_options: Default::default(),
             buffers: &SeenCasters::vertex_layouts(),
         },
-        primitive: Default::default(),
+        primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: depth_format(gpu),
             depth_write_enabled: Some(true),
@@ -101,9 +115,9 @@ fn pipeline(gpu: &Gpu, view_layout: &wgpu::BindGroupLayout, entry: &str) -> wgpu
         multisample: Default::default(),
         fragment: Some(wgpu::FragmentState {
             module: &module,
-            entry_point: Some(entry),
+            entry_point: Some(fragment),
             compilation_options: Default::default(),
-            targets: &[PACKED, WIDE, WIDE, WIDE].map(|format| Some(format.into())),
+            targets: &[PACKED, SURFACE].map(|format| Some(format.into())),
         }),
         multiview_mask: None,
         cache: None,

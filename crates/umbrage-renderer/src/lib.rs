@@ -31,7 +31,7 @@ use gbuffer::GBufferPass;
 use lit::{Lit, Target, Visible};
 use many::Pooled;
 use overlay::Overlay;
-use shading::Shading;
+use shading::{MOST_LIGHTS, Shading, Together};
 use targets::{PICTURE, Targets};
 use tonemap::ToneMap;
 pub use turns::Lights;
@@ -60,6 +60,8 @@ pub struct Renderer {
     targets: Targets,
     recorder: Recorder,
     lights: Vec<Lit>,
+    /// Of the lights that the last picture was shaded under in one pass.
+    together: Option<Together>,
     /// All lights as the scene has them.
     scene_lights: Vec<Light>,
     /// Kept only where a light is textured.
@@ -83,11 +85,12 @@ impl Renderer {
     pub fn new(gpu: &Gpu, scene: &Scene, width: u32, height: u32, lights: Vec<LightPass>) -> Result<Self, Error> {
         gpu.check_size("the picture", width, height)?;
         let casters = Casters::new(gpu, scene)?;
-        let (shading, tonemap) = (Shading::new(gpu), ToneMap::new(gpu));
+        let (shading, tonemap) = (Shading::new(gpu, scene.ambient.to_array()), ToneMap::new(gpu));
         let lights = checked_lights(gpu, &shading, &scene.lights, (width, height), lights)?;
         let textured = scene.lights.iter().any(|l| matches!(l.shape, LightShape::Rect { texture: Some(_), .. }));
         Ok(Self {
             lights,
+            together: None,
             gpu: gpu.clone(),
             casters,
             gbuffer: GBufferPass::new(gpu),
@@ -154,7 +157,7 @@ impl Renderer {
         self.casters.record(&mut passes)?;
         self.record_casters_ms = start.elapsed().as_secs_f64() * 1e3;
         passes.owner(Owner::Host("gbuffer"));
-        self.gbuffer.record(&self.gpu, &mut passes, gbuffer, &self.casters, &camera, self.ambient);
+        self.gbuffer.record(&self.gpu, &mut passes, gbuffer, &self.casters, &camera);
         let scene = Visible { camera, receivers, casters: &self.casters, textures: &self.textures };
         let size = receivers.size;
         let shade = |passes: &mut Passes<'_>, lit: &Lit, part: LitPart| {
@@ -162,6 +165,11 @@ impl Renderer {
             self.shading.record(passes, &self.targets, &scene.view(&lit.light), part.pixels(size), &lit.target);
         };
         let mut preparing = Duration::ZERO;
+        let is_at_once = self.overlay.is_none() && self.one_target.is_none() && can_shade_at_once(&self.lights);
+        if !is_at_once {
+            passes.owner(Owner::Host("shading"));
+            self.shading.record_start(&mut passes, &self.targets);
+        }
         if let Some(overlay) = &self.overlay {
             let start = Instant::now();
             overlay.find(&self.gpu, &mut passes, &scene, &mut self.lights)?;
@@ -187,12 +195,25 @@ impl Renderer {
                 let prepared = lit.technique.prepare(&self.gpu, &view)?;
                 preparing += start.elapsed();
                 lit.target.record(prepared, &mut passes)?;
-                shade(&mut passes, lit, part);
+                if !is_at_once {
+                    shade(&mut passes, lit, part);
+                }
             }
         }
         self.prepare_ms = preparing.as_secs_f64() * 1e3;
         passes.owner(Owner::Host("shading"));
-        self.tonemap.record(&mut passes, &self.targets.radiance, target, format);
+        if is_at_once {
+            let views: Vec<_> = self.lights.iter().map(|lit| scene.view(&lit.light)).collect();
+            let visibilities: Vec<_> = self.lights.iter().filter_map(|lit| lit.target.visibility()).collect();
+            self.shading.join(&self.gpu, &visibilities, &mut self.together);
+            self.shading.prepare(&self.gpu, format, views.len());
+            if let Some(together) = &self.together {
+                let light = (&*views, self.ambient);
+                self.shading.record_picture(&mut passes, &self.targets, light, together, (target, format));
+            }
+        } else {
+            self.tonemap.record(&mut passes, &self.targets.radiance, target, format);
+        }
         passes.finish();
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.check()
@@ -250,6 +271,11 @@ impl Renderer {
     pub fn technique(&self, pass: usize) -> Option<&dyn Technique> {
         self.lights.get(pass).map(|l| &*l.technique)
     }
+}
+
+/// Whether one pass can shade under all of these lights: a few that answer with visibility.
+fn can_shade_at_once(lights: &[Lit]) -> bool {
+    (1..=MOST_LIGHTS).contains(&lights.len()) && lights.iter().all(|lit| lit.target.visibility().is_some())
 }
 
 /// The lights of passes, none twice.

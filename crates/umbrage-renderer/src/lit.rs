@@ -35,7 +35,7 @@ impl Target {
         Ok(match answer {
             Answer::Visibility => {
                 let target = one.map_or_else(|| VisibilityTarget::new(gpu, width, height), |one| Ok(one.clone()))?;
-                let slot = shading.slot(gpu, &target);
+                let slot = shading.slot(gpu, &[&target]);
                 Self::Visibility(target, slot)
             }
             Answer::Radiance => {
@@ -50,6 +50,14 @@ impl Target {
         match self {
             Self::Visibility(..) => Answer::Visibility,
             Self::Radiance(..) => Answer::Radiance,
+        }
+    }
+
+    /// Where the answer is visibility.
+    pub fn visibility(&self) -> Option<&VisibilityTarget> {
+        match self {
+            Self::Visibility(target, _) => Some(target),
+            Self::Radiance(..) => None,
         }
     }
 

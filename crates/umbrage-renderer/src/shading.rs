@@ -1,19 +1,27 @@
-//! Adds one light under its visibility: the standard lighting model (PX 2.2.4), per pixel.
+//! Lights under their visibility: the standard lighting model (PX 2.2.4), per pixel. All lights
+//! that answer with visibility go to the picture in one pass where they are few; else each is added
+//! to the radiance of those before.
 
+use crate::gbuffer::SURFACE_MODULE;
 use crate::lit::Target;
 use crate::radiance::RadiancePass;
 use crate::targets::{GBuffer, Targets, WIDE};
+use crate::tonemap::{DISPLAY_MODULE, encodes};
 use umbrage::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout};
 use umbrage::{Eye, Gpu, Passes, Receivers, Shader, View, VisibilityTarget, shader_struct};
 use umbrage_core::{LightShape, glam::DVec3};
 
 /// The shader.
-pub const SHADER: Shader = Shader::new("shading", include_str!("shading.wgsl")).with_layouts(&[ShadingLight::LAYOUT]);
+pub const SHADER: Shader = Shader::new("shading", include_str!("shading.wgsl"))
+    .with_modules(&[SURFACE_MODULE, DISPLAY_MODULE])
+    .with_layouts(&[ShadingLight::LAYOUT, ShadingInput::LAYOUT]);
+
+/// As many lights as one pass shades.
+pub(crate) const MOST_LIGHTS: usize = 4;
 
 shader_struct! {
     /// A light as the shader reads it, relative to the eye.
     struct ShadingLight {
-        eye: Eye,
         /// Place of the light's centre (w = 1) or direction to it (w = 0).
         center: [f32; 4],
         /// Colour times intensity.
@@ -29,51 +37,124 @@ shader_struct! {
     }
 }
 
-/// Adds lights to the radiance of a G-buffer.
+shader_struct! {
+    /// All that a pass shades by.
+    struct ShadingInput {
+        eye: Eye,
+        ambient: [f32; 3],
+        spare: f32,
+        /// Where lines of sight are parallel; else zero.
+        toward_eye: [f32; 3],
+        more_spare: f32,
+        lights: [ShadingLight; MOST_LIGHTS],
+    }
+}
+
+/// Shades a G-buffer.
 pub(crate) struct Shading {
-    pipeline: wgpu::RenderPipeline,
+    module: wgpu::ShaderModule,
+    /// Adds a light to radiance.
+    add: wgpu::RenderPipeline,
+    /// Leaves what lights are added to.
+    start: (wgpu::RenderPipeline, wgpu::BindGroup),
+    /// To pictures of a format, by how many lights.
+    pictures: Vec<((wgpu::TextureFormat, usize), wgpu::RenderPipeline)>,
     surface_layout: wgpu::BindGroupLayout,
     light_layout: wgpu::BindGroupLayout,
     /// For techniques that leave nothing to shade.
     pub radiance: RadiancePass,
 }
 
-/// What one light needs of its own.
+/// What a pass of one light needs of its own, or of some lights together.
 pub(crate) struct Slot {
     uniforms: wgpu::Buffer,
     bind_group: wgpu::BindGroup,
 }
 
+/// Lights that one pass shades, as long as they are the same.
+pub(crate) struct Together {
+    visibilities: Vec<wgpu::Texture>,
+    slot: Slot,
+}
+
 impl Shading {
-    pub fn new(gpu: &Gpu) -> Self {
+    /// For a scene of this ambient light.
+    pub fn new(gpu: &Gpu, ambient: [f32; 3]) -> Self {
         let stage = wgpu::ShaderStages::FRAGMENT;
+        let surface_layout = layout(gpu, "surface", stage, &[fullscreen::texture(wgpu::TextureSampleType::Uint)]);
         let floats = fullscreen::texture(FLOATS);
-        let surface_layout = layout(gpu, "surface", stage, &[floats, floats]);
-        let light_layout = layout(gpu, "light", stage, &[UNIFORM, floats]);
-        let pipeline = Fullscreen {
-            label: "shading",
-            module: &SHADER.module(gpu),
-            entry: "shade",
-            groups: &[&Receivers::layout(gpu), &surface_layout, &light_layout],
-            target: additive(WIDE),
-            constants: &[],
-        }
-        .pipeline(gpu);
-        Self { pipeline, surface_layout, light_layout, radiance: RadiancePass::new(gpu) }
+        let light_layout = layout(gpu, "lights", stage, &[UNIFORM, floats, floats, floats, floats]);
+        let module = SHADER.module(gpu);
+        let radiance = RadiancePass::new(gpu);
+        let groups = [&surface_layout, &light_layout];
+        let add = pipeline(gpu, &module, groups, ("add", 1), additive(WIDE));
+        let start_layout = layout(gpu, "no light", stage, &[UNIFORM]);
+        let input = ShadingInput { ambient, ..ShadingInput::default() };
+        let uniforms = gpu.buffer("no light", &[input], wgpu::BufferUsages::UNIFORM);
+        let start = (
+            pipeline(gpu, &module, [&surface_layout, &start_layout], ("start", 0), WIDE.into()),
+            bind(gpu, "no light", &start_layout, &[uniforms.as_entire_binding()]),
+        );
+        Self { module, add, start, pictures: Vec::new(), surface_layout, light_layout, radiance }
     }
 
     /// What is read of a G-buffer.
     pub fn surface(&self, gpu: &Gpu, gbuffer: &GBuffer) -> wgpu::BindGroup {
-        let views = [&gbuffer.shading_view, &gbuffer.color_view].map(wgpu::BindingResource::TextureView);
-        bind(gpu, "surface", &self.surface_layout, &views)
+        bind(gpu, "surface", &self.surface_layout, &[wgpu::BindingResource::TextureView(&gbuffer.surface_view)])
     }
 
-    pub fn slot(&self, gpu: &Gpu, visibility: &VisibilityTarget) -> Slot {
+    pub fn slot(&self, gpu: &Gpu, visibilities: &[&VisibilityTarget]) -> Slot {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
-        let uniforms = gpu.buffer("light", &[ShadingLight::default()], usage);
-        let visibility = wgpu::BindingResource::TextureView(&visibility.view);
-        let bind_group = bind(gpu, "light", &self.light_layout, &[uniforms.as_entire_binding(), visibility]);
+        let uniforms = gpu.buffer("lights", &[ShadingInput::default()], usage);
+        // Those beyond the last light are not read.
+        let views = visibilities.iter().cycle().take(MOST_LIGHTS);
+        let views = views.map(|target| wgpu::BindingResource::TextureView(&target.view));
+        let resources: Vec<_> = std::iter::once(uniforms.as_entire_binding()).chain(views).collect();
+        let bind_group = bind(gpu, "lights", &self.light_layout, &resources);
         Slot { uniforms, bind_group }
+    }
+
+    /// Makes what one pass needs for the visibilities of some lights, where `together` has it not.
+    pub fn join(&self, gpu: &Gpu, visibilities: &[&VisibilityTarget], together: &mut Option<Together>) {
+        let is_it = |known: &&mut Together| known.visibilities.iter().eq(visibilities.iter().map(|v| &v.texture));
+        if together.as_mut().filter(is_it).is_none() {
+            let slot = self.slot(gpu, visibilities);
+            let visibilities = visibilities.iter().map(|target| target.texture.clone()).collect();
+            *together = Some(Together { visibilities, slot });
+        }
+    }
+
+    /// Makes what pictures of this format need under so many lights, where it is not there yet.
+    pub fn prepare(&mut self, gpu: &Gpu, format: wgpu::TextureFormat, lights: usize) {
+        if self.pictures.iter().all(|(known, _)| *known != (format, lights)) {
+            let groups = [&self.surface_layout, &self.light_layout];
+            let made = pipeline(gpu, &self.module, groups, ("picture", lights), format.into());
+            self.pictures.push(((format, lights), made));
+        }
+    }
+
+    /// Draws the picture under the lights of `views`, for which all was prepared.
+    pub fn record_picture(
+        &self,
+        passes: &mut Passes<'_>,
+        targets: &Targets,
+        (views, ambient): (&[View<'_>], [f32; 3]),
+        together: &Together,
+        (target, format): (&wgpu::TextureView, wgpu::TextureFormat),
+    ) {
+        let known = self.pictures.iter().find(|(known, _)| *known == (format, views.len()));
+        let Some((_, pipeline)) = known else { return };
+        passes.upload(&together.slot.uniforms, bytemuck::bytes_of(&shading_input(views, ambient)));
+        let target = attachment(target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));
+        let mut pass = passes.render("picture", &[target], None);
+        draw(&mut pass, pipeline, targets, &together.slot.bind_group);
+    }
+
+    /// Leaves in the radiance what surfaces send out without any light.
+    pub fn record_start(&self, passes: &mut Passes<'_>, targets: &Targets) {
+        let target = attachment(&targets.gbuffer.radiance_view, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));
+        let mut pass = passes.render("start", &[target], None);
+        draw(&mut pass, &self.start.0, targets, &self.start.1);
     }
 
     /// Adds the light of `view` within these pixels, by the answer of its technique.
@@ -99,19 +180,55 @@ impl Shading {
         [x, y, width, height]: [u32; 4],
         slot: &Slot,
     ) {
-        passes.upload(&slot.uniforms, bytemuck::bytes_of(&light_uniforms(view)));
+        passes.upload(&slot.uniforms, bytemuck::bytes_of(&shading_input(&[*view], [0.0; 3])));
         let target = attachment(&targets.gbuffer.radiance_view, wgpu::LoadOp::Load);
         let mut pass = passes.render("light", &[target], None);
         pass.set_scissor_rect(x, y, width, height);
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, view.receivers.bind_group(), &[]);
-        pass.set_bind_group(1, &targets.surface, &[]);
-        pass.set_bind_group(2, &slot.bind_group, &[]);
-        pass.draw(0..3, 0..1);
+        draw(&mut pass, &self.add, targets, &slot.bind_group);
     }
 }
 
-fn light_uniforms(view: &View<'_>) -> ShadingLight {
+fn draw(pass: &mut wgpu::RenderPass<'_>, pipeline: &wgpu::RenderPipeline, targets: &Targets, lights: &wgpu::BindGroup) {
+    pass.set_pipeline(pipeline);
+    pass.set_bind_group(0, targets.receivers.bind_group(), &[]);
+    pass.set_bind_group(1, &targets.surface, &[]);
+    pass.set_bind_group(2, lights, &[]);
+    pass.draw(0..3, 0..1);
+}
+
+fn pipeline(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    [surface, lights]: [&wgpu::BindGroupLayout; 2],
+    (entry, count): (&'static str, usize),
+    target: wgpu::ColorTargetState,
+) -> wgpu::RenderPipeline {
+    let constants = [("LIGHTS", count as f64), ("ENCODES", f64::from(u8::from(encodes(target.format))))];
+    // A constant that an entry point does not use is none of the module's.
+    let constants = match entry {
+        "picture" => &constants[..],
+        "add" => &constants[..1],
+        _ => &[],
+    };
+    let groups = &[&Receivers::layout(gpu), surface, lights];
+    Fullscreen { label: "shading", module, entry, groups, target, constants }.pipeline(gpu)
+}
+
+/// What the shader reads of at most [`MOST_LIGHTS`] lights seen by one camera.
+fn shading_input(views: &[View<'_>], ambient: [f32; 3]) -> ShadingInput {
+    let mut input = ShadingInput { ambient, ..ShadingInput::default() };
+    for (light, view) in input.lights.iter_mut().zip(views) {
+        *light = shading_light(view);
+    }
+    if let Some(view) = views.first() {
+        input.eye = Eye::new(view);
+        let camera = &view.camera;
+        input.toward_eye = if camera.is_parallel() { (-camera.forward()).as_vec3().to_array() } else { [0.0; 3] };
+    }
+    input
+}
+
+fn shading_light(view: &View<'_>) -> ShadingLight {
     let light = view.light;
     let cos = |angle_deg: f64| angle_deg.to_radians().cos() as f32;
     let (direction, inner_cos, outer_cos) = match light.shape {
@@ -124,7 +241,6 @@ fn light_uniforms(view: &View<'_>) -> ShadingLight {
     };
     let center = light.shape.center();
     ShadingLight {
-        eye: Eye::new(view),
         center: (center.truncate() - view.camera.eye * center.w).extend(center.w).as_vec4().to_array(),
         color: (light.color * light.intensity).to_array(),
         range: light.range.map_or(f32::MAX, |r| r as f32),

@@ -6,7 +6,9 @@ use umbrage::{Error, Gpu, Receivers, fullscreen::target_texture};
 
 /// Packed normals.
 pub(crate) const PACKED: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
-/// Shading normals, colours and radiance.
+/// Shading normals and looks, packed.
+pub(crate) const SURFACE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
+/// Radiance.
 pub(crate) const WIDE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// The picture.
 pub(crate) const PICTURE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
@@ -32,11 +34,9 @@ pub(crate) struct GBuffer {
     pub stencil_view: Option<wgpu::TextureView>,
     /// Geometric normal turned to the eye, packed.
     pub normal_view: wgpu::TextureView,
-    /// Shading normal, and shininess: negative where no shadow falls.
-    pub shading_view: wgpu::TextureView,
-    /// Base colour and specular strength.
-    pub color_view: wgpu::TextureView,
-    /// Light that leaves the surface; every light adds to it.
+    /// Shading normal and look, packed, see `surface.wgsl`.
+    pub surface_view: wgpu::TextureView,
+    /// Light that leaves the surface, where lights add to it one after the other.
     pub radiance_view: wgpu::TextureView,
 }
 
@@ -74,8 +74,7 @@ impl GBuffer {
             depth_view: depth.create_view(&depth_alone),
             stencil_view: depth.format().has_stencil_aspect().then(|| view(&depth)),
             normal_view: view(&normal),
-            shading_view: view(&texture("shading normal", WIDE)),
-            color_view: view(&texture("base colour", WIDE)),
+            surface_view: view(&texture("surface", SURFACE)),
             radiance_view: view(&texture("radiance", WIDE)),
         }
     }

@@ -2,10 +2,13 @@
 
 use crate::targets::{GBuffer, PICTURE};
 use umbrage::fullscreen::{self, FLOATS, Fullscreen, attachment, bind, layout};
-use umbrage::{Error, Gpu, Passes, Shader};
+use umbrage::{Error, Gpu, Module, Passes, Shader};
+
+/// What makes radiance a colour of the screen.
+pub const DISPLAY_MODULE: Module = Module { name: "display", source: include_str!("display.wgsl") };
 
 /// The shader.
-pub const SHADER: Shader = Shader::new("tone mapping", include_str!("tonemap.wgsl"));
+pub const SHADER: Shader = Shader::new("tone mapping", include_str!("tonemap.wgsl")).with_modules(&[DISPLAY_MODULE]);
 
 /// Draws radiance to targets of any format.
 pub(crate) struct ToneMap {
@@ -62,22 +65,26 @@ impl ToneMap {
     }
 }
 
+/// Whether shaders encode as sRGB what they write to a format: what is stored in others is linear,
+/// or the GPU encodes it.
+pub(crate) fn encodes(format: wgpu::TextureFormat) -> bool {
+    use wgpu::TextureFormat::{Rg11b10Ufloat, Rgba16Float, Rgba32Float};
+    !(format.is_srgb() || matches!(format, Rg11b10Ufloat | Rgba16Float | Rgba32Float))
+}
+
 fn pipeline(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
     layout: &wgpu::BindGroupLayout,
     format: wgpu::TextureFormat,
 ) -> wgpu::RenderPipeline {
-    use wgpu::TextureFormat::{Rg11b10Ufloat, Rgba16Float, Rgba32Float};
-    // What is stored in the format is linear, or the GPU encodes it.
-    let is_linear = format.is_srgb() || matches!(format, Rg11b10Ufloat | Rgba16Float | Rgba32Float);
     Fullscreen {
         label: "tone mapping",
         module,
         entry: "tonemap",
         groups: &[layout],
         target: format.into(),
-        constants: &[("ENCODES", f64::from(u8::from(!is_linear)))],
+        constants: &[("ENCODES", f64::from(u8::from(encodes(format))))],
     }
     .pipeline(gpu)
 }

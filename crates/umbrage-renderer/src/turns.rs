@@ -2,6 +2,7 @@
 //! upload memory, all of the same geometry.
 
 use crate::lit::{Lit, Target};
+use crate::shading::Together;
 use crate::{LightPass, Renderer, checked_lights, no_pass};
 use umbrage::{Error, Recorder};
 
@@ -9,6 +10,7 @@ use umbrage::{Error, Recorder};
 /// frame stays.
 pub struct Lights {
     lights: Vec<Lit>,
+    together: Option<Together>,
     recorder: Recorder,
     size: (u32, u32),
 }
@@ -22,7 +24,7 @@ impl Renderer {
     pub fn make_lights(&self, passes: Vec<LightPass>) -> Result<Lights, Error> {
         let size = self.targets.size();
         let lights = checked_lights(&self.gpu, &self.shading, &self.scene_lights, size, passes)?;
-        Ok(Lights { lights, recorder: Recorder::new(&self.gpu), size })
+        Ok(Lights { lights, together: None, recorder: Recorder::new(&self.gpu), size })
     }
 
     /// Draws with `others` from the next frame on, and leaves in their place what was in use.
@@ -36,6 +38,7 @@ impl Renderer {
         }
         let size = self.targets.size();
         std::mem::swap(&mut self.lights, &mut others.lights);
+        std::mem::swap(&mut self.together, &mut others.together);
         std::mem::swap(&mut self.recorder, &mut others.recorder);
         if std::mem::replace(&mut others.size, size) != size {
             self.make_targets()?;

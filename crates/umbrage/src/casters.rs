@@ -55,7 +55,7 @@ pub(crate) use pipeline::CasterDraw;
 pub(crate) use placed::Placed;
 pub(crate) use places::Places;
 pub(crate) use planes::{ScenePlane, ScenePlanes};
-pub use seen::SeenCasters;
+pub use seen::{SeenCasters, SeenSurface};
 pub use world::Casters;
 
 use crate::shader::{Shader, Shared};

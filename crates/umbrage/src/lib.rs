@@ -87,7 +87,7 @@ mod warm_up;
 pub use answer::{Answer, RadianceTarget};
 pub use casters::{
     CasterView, Casters, HostCasters, InstanceId, LentIndices, LentInstances, LentMatrices, LentMesh, LentShape,
-    LentVertices, MaterialId, MatrixForm, MeshId, Needs, Placement, SeenCasters, TextureId, Vertices,
+    LentVertices, MaterialId, MatrixForm, MeshId, Needs, Placement, SeenCasters, SeenSurface, TextureId, Vertices,
 };
 pub use deliver::{Coarse, Deliver, Upsample};
 pub use denoise::Denoise;

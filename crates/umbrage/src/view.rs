@@ -58,17 +58,22 @@ impl View<'_> {
         4e-6 * points.iter().map(|p| p.abs().max_element()).fold(scene, f64::max)
     }
 
-    /// A box around the eye and the near rectangle: only what touches it can be cut open by the
-    /// near plane, or hold the eye.
+    /// See [`around_eye`].
     pub(crate) fn around_eye(&self) -> Bounds {
-        let eye_from_clip = self.clip_from_eye().inverse();
-        let near_depth = if self.camera.background_depth() == 0.0 { 1.0 } else { 0.0 };
-        let near = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)].map(|(x, y)| {
-            let p = eye_from_clip * DVec4::new(x, y, near_depth, 1.0);
-            self.camera.eye + p.truncate() / p.w
-        });
-        Bounds::of(near).with(self.camera.eye)
+        around_eye(&self.camera)
     }
+}
+
+/// A box around the eye and the near rectangle: only what touches it can be cut open by the near
+/// plane, or hold the eye.
+pub(crate) fn around_eye(camera: &CameraView) -> Bounds {
+    let eye_from_clip = clip_from_eye(camera).inverse();
+    let near_depth = if camera.background_depth() == 0.0 { 1.0 } else { 0.0 };
+    let near = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)].map(|(x, y)| {
+        let p = eye_from_clip * DVec4::new(x, y, near_depth, 1.0);
+        camera.eye + p.truncate() / p.w
+    });
+    Bounds::of(near).with(camera.eye)
 }
 
 /// As [`View::clip_from_eye`].

@@ -134,16 +134,16 @@ impl InstanceNumbers {
     }
 
     /// Draws a list with positions in vertex buffer 0, instance numbers in 1, attributes in 2 and
-    /// matrices of a host's in 3, each surface and form of buffers with its `pipeline`; nothing
-    /// where there is none. Textures are bound as group 2 for alpha-masked meshes, and for all
-    /// where `textured`.
+    /// matrices of a host's in 3, each surface, with and without a texture, and form of buffers with
+    /// its `pipeline`; nothing where there is none. Textures are bound as group 2 for alpha-masked
+    /// meshes, and for all where `textured`.
     pub fn draw<'p>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         casters: &Casters,
         list: &DrawList,
         textured: bool,
-        pipeline: impl Fn(Surface, &Form) -> Option<&'p wgpu::RenderPipeline>,
+        pipeline: impl Fn(Surface, bool, &Form) -> Option<&'p wgpu::RenderPipeline>,
     ) {
         let Some(numbers) = &self.buffer else { return };
         pass.set_bind_group(1, &casters.bind_group, &[]);
@@ -153,9 +153,10 @@ impl InstanceNumbers {
             let part = &casters.meshes()[batch.mesh as usize];
             let many = batch.many.and_then(|place| casters.placed[place as usize].many.as_ref());
             let form = part.form(many.map(|many| &many.matrices));
-            let Some(pipeline) = pipeline(*surface, &form) else { continue };
-            if current != Some((*surface, form)) {
-                current = Some((*surface, form));
+            let has_texture = batch.texture.is_some();
+            let Some(pipeline) = pipeline(*surface, has_texture, &form) else { continue };
+            if current != Some((*surface, has_texture, form)) {
+                current = Some((*surface, has_texture, form));
                 pass.set_pipeline(pipeline);
             }
             let reads_uvs = textured || batch.masked;

@@ -5,8 +5,21 @@ use super::material::texture_layout;
 use super::placed::Placed;
 use super::vertices::vertex_layouts;
 use super::world::Casters;
-use crate::{gpu::Gpu, passes::Passes};
+use crate::{gpu::Gpu, passes::Passes, view::around_eye};
 use umbrage_core::{CameraView, Frustum};
+
+/// What a host chooses a pipeline of [`SeenCasters::draw`] by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct SeenSurface {
+    /// It has an alpha mask.
+    pub masked: bool,
+    /// It has a picture; without one, that of group 2 is white.
+    pub textured: bool,
+    /// No more than its front faces can be seen, which are wound counter-clockwise as the library's
+    /// own cameras see them: it is a closed convex body, and the camera is outside of it.
+    pub one_sided: bool,
+}
 
 /// Draws the instances that a camera sees: into a G-buffer, say. Keeps its memory from frame to
 /// frame. What a host lends is left to its own draws.
@@ -18,6 +31,8 @@ use umbrage_core::{CameraView, Frustum};
 #[derive(Default)]
 pub struct SeenCasters {
     places: Vec<u32>,
+    /// What the camera may look into, in order.
+    pierced: Vec<u32>,
     numbers: InstanceNumbers,
     list: DrawList,
 }
@@ -39,23 +54,36 @@ impl SeenCasters {
         let is_own = |placed: &Placed| placed.many.is_none() && casters.meshes()[placed.mesh as usize].lent.is_none();
         let is_seen = |placed: &Placed| placed.shown && frustum.may_see(&placed.bounds) && is_own(placed);
         let seen = (0..).zip(casters.placed()).filter(|(_, placed)| is_seen(placed));
+        // Single precision moves surfaces, and the near plane is close.
+        let eye = around_eye(camera);
+        let eye = eye.grown(0.1 * eye.radius() + 1e-6 * eye.largest_coordinate());
         self.places.clear();
-        self.places.extend(seen.map(|(place, _)| place));
+        self.pierced.clear();
+        for (place, placed) in seen {
+            self.places.push(place);
+            if placed.bounds.overlaps(&eye) {
+                self.pierced.push(place);
+            }
+        }
         casters.sort(&mut self.places);
         self.numbers.clear(gpu, casters, 1);
-        self.numbers.list(casters, &self.places, None, None, &mut self.list);
+        self.numbers.list(casters, &self.places, None, Some(&self.pierced), &mut self.list);
         self.numbers.upload(passes);
     }
 
-    /// Draws what was found, surfaces with an alpha mask by the pipeline `masked`.
-    pub fn draw(
+    /// Draws what was found, each surface by the pipeline that `pipeline` has for it.
+    pub fn draw<'p>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         casters: &Casters,
-        opaque: &wgpu::RenderPipeline,
-        masked: &wgpu::RenderPipeline,
+        pipeline: impl Fn(SeenSurface) -> &'p wgpu::RenderPipeline,
     ) {
-        let pipeline = |surface, _: &_| Some(if surface == Surface::Masked { masked } else { opaque });
-        self.numbers.draw(pass, casters, &self.list, true, pipeline);
+        let of = |surface, textured| SeenSurface {
+            masked: surface == Surface::Masked,
+            textured,
+            one_sided: surface == Surface::Solid,
+        };
+        self.numbers
+            .draw(pass, casters, &self.list, true, |surface, textured, _| Some(pipeline(of(surface, textured))));
     }
 }

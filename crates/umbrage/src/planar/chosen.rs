@@ -164,7 +164,7 @@ impl Chosen {
         pipeline: impl Fn(Surface, &Form) -> Option<&'p wgpu::RenderPipeline>,
     ) {
         if let Some(list) = self.lists().get(plane) {
-            self.numbers.draw(pass, casters, list, false, pipeline);
+            self.numbers.draw(pass, casters, list, false, |surface, _, form| pipeline(surface, form));
         }
     }
 

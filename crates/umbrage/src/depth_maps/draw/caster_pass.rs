@@ -126,7 +126,8 @@ impl CasterPass {
         let (Some((_, uniform)), Some(list)) = (self.uniforms.get(i), self.lists.get(i)) else { return 0 };
         let mut pass = passes.render(label, colors, depth);
         pass.set_bind_group(0, uniform, &[]);
-        let pipeline = |surface, form: &Form| Some(&self.pipelines.get(form)?[usize::from(surface == Surface::Masked)]);
+        let pipeline =
+            |surface, _, form: &Form| Some(&self.pipelines.get(form)?[usize::from(surface == Surface::Masked)]);
         self.numbers.draw(&mut pass, casters, list, true, pipeline);
         list.draws()
     }

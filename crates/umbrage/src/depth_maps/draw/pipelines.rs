@@ -171,8 +171,9 @@ impl Pipelines {
         let draw = |passes: &mut Passes<'_>, label, list, attachment, is_all: bool| {
             let mut pass = passes.render(label, &[], attachment);
             pass.set_bind_group(0, view_uniform, &[]);
-            numbers
-                .draw(&mut pass, casters, list, false, |surface, form| Some(&set.nearest.get(form)?[surface as usize]));
+            numbers.draw(&mut pass, casters, list, false, |surface, _, form| {
+                Some(&set.nearest.get(form)?[surface as usize])
+            });
             if is_all && casters.has_host_casters() {
                 pass.set_bind_group(0, view_uniform, &[]);
                 casters.draw_host_casters(&mut pass, view);
@@ -194,7 +195,7 @@ impl Pipelines {
             let mut pass = passes.render("second surface", &[], clear(&second.second));
             pass.set_bind_group(0, view_uniform, &[]);
             pass.set_bind_group(3, &second.read_first, &[]);
-            numbers.draw(&mut pass, casters, &layer.list, true, |surface, form| {
+            numbers.draw(&mut pass, casters, &layer.list, true, |surface, _, form| {
                 Some(&pipelines.surface.get(form)?[usize::from(surface == Surface::Masked)])
             });
         }
