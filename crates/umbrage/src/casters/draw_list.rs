@@ -134,9 +134,9 @@ impl InstanceNumbers {
     }
 
     /// Draws a list with positions in vertex buffer 0, instance numbers in 1, attributes in 2 and
-    /// matrices of a host's in 3, each surface, with and without a texture, and form of buffers with
-    /// its `pipeline`; nothing where there is none. Textures are bound as group 2 for alpha-masked
-    /// meshes, and for all where `textured`.
+    /// matrices of a host's in 3, each surface, with and without a texture, and form of buffers
+    /// with its `pipeline`; nothing where there is none. Textures are bound as group 2 for
+    /// alpha-masked meshes, and for all where `textured`.
     pub fn draw<'p>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
