@@ -4,7 +4,7 @@ use crate::say;
 use anyhow::Result;
 use clap::Args;
 use std::path::PathBuf;
-use umbrage::{Gpu, Registry};
+use umbrage::{Answer, Gpu, Registry};
 use umbrage_report::{CameraPath, Choice, Folder, Moving, Source};
 
 /// Which adapter to use.
@@ -80,11 +80,19 @@ pub struct What {
     /// Only this light of each scene, from 0 [default: all]
     #[arg(long, value_name = "N")]
     light: Option<usize>,
+    /// Folder where baked transfer is kept and found again, by what determines it
+    #[arg(long, value_name = "DIR")]
+    bake_cache: Option<PathBuf>,
     #[command(flatten)]
     changed: Changed,
 }
 
 impl What {
+    /// Where baked transfer is kept.
+    pub fn bake_cache(&self) -> Result<Option<PathBuf>> {
+        kept_in(self.bake_cache.clone())
+    }
+
     /// The techniques with their settings.
     pub fn choices(&self, registry: &Registry) -> Result<Vec<Choice>> {
         let choices = Choice::list(registry, &self.techniques, &self.set)?;
@@ -92,13 +100,16 @@ impl What {
         Ok(choices.into_iter().map(|c| c.or_light_samples(self.light_samples)).collect())
     }
 
-    /// The scenes, each with the lights to work on; what the loader has to say goes to the standard
-    /// error.
-    pub fn scenes(&self) -> Result<Vec<(Source, Vec<usize>)>> {
+    /// The scenes, each with the lights to work on, those that the choices have an answer for; what
+    /// the loader has to say goes to the standard error.
+    pub fn scenes(&self, choices: &[Choice]) -> Result<Vec<(Source, Vec<usize>)>> {
+        let mut answers: Vec<Answer> = choices.iter().map(|choice| choice.info.answer()).collect();
+        answers.sort_by_key(|answer| answer.name());
+        answers.dedup();
         let mut scenes = Vec::new();
         for name in &self.scenes {
             let source = self.changed.open(name)?;
-            let lights = source.lights(self.light)?;
+            let lights = source.lights(self.light, &answers)?;
             source.notes.iter().for_each(|note| say::note(&format!("{name}: {note}")));
             scenes.push((source, lights));
         }
@@ -111,8 +122,8 @@ pub fn print_note(choice: &Choice) {
     choice.note.iter().for_each(|note| say::note(note));
 }
 
-/// A folder for traced references that can be written to.
-pub fn truth_cache(folder: Option<PathBuf>) -> Result<Option<PathBuf>> {
+/// A folder to keep things in that can be written to.
+pub fn kept_in(folder: Option<PathBuf>) -> Result<Option<PathBuf>> {
     if let Some(folder) = &folder {
         Folder::check(folder)?;
     }

@@ -36,6 +36,15 @@ impl Progress for Bars {
         self.with(|slot| slot.iter().for_each(|bar| bar.set_position(done)));
     }
 
+    fn of(&self, done: u64, steps: u64) {
+        self.with(|slot| {
+            slot.iter().for_each(|bar| {
+                bar.set_length(steps);
+                bar.set_position(done);
+            });
+        });
+    }
+
     fn note(&self, text: &str) {
         self.with(|slot| match slot {
             Some(bar) => bar.suspend(|| say::note(text)),

@@ -87,7 +87,7 @@ impl Bench {
     /// Measures and prints.
     pub fn run(self, context: &Context<'_>) -> Result<()> {
         let choices = self.what.choices(context.registry)?;
-        let scenes = self.what.scenes()?;
+        let scenes = self.what.scenes(&choices)?;
         let earlier = self.vs.as_deref().map(earlier).transpose()?;
         let gpu = self.adapter.gpu()?;
         let plan = Plan {
@@ -102,6 +102,7 @@ impl Bench {
             overlay: self.overlay,
             bytes: self.bytes,
             churn: self.churn,
+            bake_cache: self.what.bake_cache()?,
             command: context.line.clone(),
         };
         let report = plan.run(&gpu, &Bars::default())?;

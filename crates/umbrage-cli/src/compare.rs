@@ -60,7 +60,7 @@ impl Compare {
     /// Compares, prints and writes.
     pub fn run(self, context: &Context<'_>) -> Result<()> {
         let choices = self.what.choices(context.registry)?;
-        let scenes = self.what.scenes()?.into_iter();
+        let scenes = self.what.scenes(&choices)?.into_iter();
         let scenes = scenes.map(|(source, lights)| (self.moved.of(source, self.size), lights)).collect();
         let gpu = self.adapter.gpu()?;
         let folder = Folder::check(&self.output)?;
@@ -70,7 +70,8 @@ impl Compare {
             size: (self.size.width, self.size.height),
             samples: self.samples,
             reference: self.reference,
-            truth_cache: args::truth_cache(self.truth_cache)?,
+            truth_cache: args::kept_in(self.truth_cache)?,
+            bake_cache: self.what.bake_cache()?,
             frames: self.frames,
             still: self.still,
             command: context.line.clone(),

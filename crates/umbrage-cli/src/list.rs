@@ -62,7 +62,7 @@ fn entries(registry: &Registry) -> Vec<Entry> {
         views: &[],
         inline: false,
     };
-    let registered = registry.techniques().iter().map(|t| Entry {
+    let registered = registry.all().map(|t| Entry {
         id: t.id,
         summary: t.summary,
         source: t.source,

@@ -9,7 +9,7 @@ use crate::{
 use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;
-use umbrage::{Registry, nearest};
+use umbrage::{Answer, Registry, nearest};
 use umbrage_report::{
     Aov, Choice, LIGHT_SAMPLES, Method, PATH_TRACED, PathTraced, Picture, RAY_TRACED, RayTraced, Shot, check_file,
 };
@@ -24,6 +24,7 @@ Examples:
   umbrage render atrium --technique volume --light 0 --aov overdraw -o overdraw.png
   umbrage render contact --technique ray-traced --samples 256 --aov visibility -o v.png
   umbrage render courtyard --technique path-traced --bounces 4 --aov radiance -o r.exr
+  umbrage render courtyard --technique prt --set order=6 --bake-cache out/bakes -o sky.png
 
 Pictures: `color` is sRGB PNG. `visibility` is linear: 16-bit grey PNG, or float EXR (channel V); it needs \
 --light where a scene has several. `radiance` is linear RGB in EXR, tone-mapped in PNG. `scored` is 255 where the comparison looks. `depth` is metres along the view in \
@@ -65,6 +66,9 @@ pub struct Render {
     /// wrong single-pass algorithm, to compare with
     #[arg(long, value_name = "SHARE", value_parser = share)]
     overlay: Option<f32>,
+    /// Folder where baked transfer is kept and found again, by what determines it
+    #[arg(long, value_name = "DIR")]
+    bake_cache: Option<PathBuf>,
     /// color, visibility, radiance, scored, depth, normal, or a view into the technique, such as
     /// map-0
     #[arg(long, value_name = "NAME", default_value = "color")]
@@ -86,7 +90,7 @@ impl Render {
             return self.path_traced(context.registry, &aov);
         }
         if self.bounces.is_some() {
-            bail!("--bounces is for `{PATH_TRACED}`");
+            bail!("--bounces is for `{PATH_TRACED}`; techniques that reflect light take it by --set bounces=N");
         }
         let method = self.method(context.registry)?;
         if self.overlay.is_some() && (aov != Aov::Color || self.technique == RAY_TRACED) {
@@ -95,19 +99,30 @@ impl Render {
             );
         }
         let source = self.moved.of(self.changed.open(&self.scene)?, self.size);
-        let lights = source.lights(self.light)?;
+        let lights = source.lights(self.light, &[answer(&method)])?;
         self.check_aov(&aov)?;
-        let of_one_light = matches!(aov, Aov::Visibility | Aov::Scored | Aov::Inside(_));
+        let of_one_light = matches!(aov, Aov::Visibility | Aov::Radiance | Aov::Scored | Aov::Inside(_));
         if of_one_light && lights.len() > 1 {
             let last = lights.len() - 1;
             bail!("{}: `{}` is of one light; say which with --light, 0 to {last}", source.asked, self.aov);
         }
         source.notes.iter().for_each(|note| say::note(note));
-        if aov == Aov::Color && self.light.is_none() && source.scene.environment.is_some() {
-            say::note(&format!("the light of the sky is left out; `--technique {PATH_TRACED}` shows it"));
+        if aov == Aov::Color && answer(&method) == Answer::Visibility && source.scene.environment.is_some() {
+            let others: Vec<&str> = context.registry.of_radiance().iter().map(|info| info.id).collect();
+            say::note(&format!(
+                "the light of the sky is left out; `--technique {PATH_TRACED}` shows it, and so does {}",
+                others.join(", ")
+            ));
         }
-        let shot =
-            Shot { source, lights, method, size: (self.size.width, self.size.height), aov, overlay: self.overlay };
+        let shot = Shot {
+            source,
+            lights,
+            method,
+            size: (self.size.width, self.size.height),
+            aov,
+            overlay: self.overlay,
+            bake_cache: args::kept_in(self.bake_cache)?,
+        };
         let gpu = if shot.needs_gpu() { Some(self.adapter.gpu()?) } else { None };
         let picture = shot.take(gpu.as_ref(), &Bars::default())?;
         picture.save(&self.output)?;
@@ -161,6 +176,14 @@ impl Render {
         let choice = Choice::new(registry, &self.technique, &set)?;
         args::print_note(&choice);
         Ok(Method::Technique(choice))
+    }
+}
+
+/// What the lights are chosen by where none is named.
+fn answer(method: &Method) -> Answer {
+    match method {
+        Method::Technique(choice) => choice.info.answer(),
+        Method::RayTraced { .. } => Answer::Visibility,
     }
 }
 

@@ -64,7 +64,7 @@ impl Sweep {
     /// Sweeps, prints and writes.
     pub fn run(self, context: &Context<'_>) -> Result<()> {
         let choices = self.what.choices(context.registry)?;
-        let scenes = self.what.scenes()?;
+        let scenes = self.what.scenes(&choices)?;
         let gpu = self.adapter.gpu()?;
         let folder = Folder::check(&self.output)?;
         let plan = Plan {
@@ -75,7 +75,8 @@ impl Sweep {
             size: (self.size.width, self.size.height),
             samples: self.samples,
             reference: self.reference,
-            truth_cache: args::truth_cache(self.truth_cache)?,
+            truth_cache: args::kept_in(self.truth_cache)?,
+            bake_cache: self.what.bake_cache()?,
             frames: self.frames,
             command: context.line.clone(),
         };

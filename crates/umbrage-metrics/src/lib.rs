@@ -33,7 +33,7 @@ pub use discontinuity::discontinuities;
 pub use error::Error;
 pub use flicker::{FixedPoint, Flicker, Frame, fixed_points};
 #[cfg(feature = "flip")]
-pub use flip::flip_colors;
+pub use flip::{flip_colors, of_colors as flip_of_colors};
 pub use footprint::{Aliasing, aliasing, footprint_colors, map_reach, reach_of, texel_footprint};
 pub use heat::heat;
 pub use interior::{REACH_PIXELS, interior};

@@ -39,6 +39,13 @@ pub struct SceneKey(Fnv);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Key(u128);
 
+impl Key {
+    /// Of all that was added to a hash.
+    pub(crate) fn of(hash: &Fnv) -> Self {
+        Self(hash.value())
+    }
+}
+
 /// A truth, and the time that tracing it took.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traced {
@@ -58,6 +65,11 @@ impl SceneKey {
         hash.text(format_args!("{:?} {:?} {:?}", scene.camera, scene.instances, scene.materials));
         hash.text(format_args!("{:?} {:?} {:?}", scene.meshes, scene.rigs, scene.textures));
         Self(hash)
+    }
+
+    /// To be gone on with.
+    pub(crate) fn hash(&self) -> Fnv {
+        self.0
     }
 
     /// Of a light in a picture of this size.
@@ -87,8 +99,13 @@ impl Kept {
     /// # Errors
     /// A file that can't be read or is not as it was written.
     pub fn read(&self, key: Key, size: (u32, u32)) -> io::Result<Option<Traced>> {
+        self.read_with(key, |bytes| decoded(bytes, size))
+    }
+
+    /// What `decoded` makes of a file.
+    pub(crate) fn read_with<T>(&self, key: Key, decoded: impl FnOnce(&[u8]) -> Option<T>) -> io::Result<Option<T>> {
         match fs::read(self.path(key)) {
-            Ok(bytes) => decoded(&bytes, size).map(Some).ok_or_else(|| {
+            Ok(bytes) => decoded(&bytes).map(Some).ok_or_else(|| {
                 io::Error::new(io::ErrorKind::InvalidData, "the file is damaged, or of another version or picture")
             }),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
@@ -101,11 +118,16 @@ impl Kept {
     /// # Errors
     /// A folder that can't be written to.
     pub fn write(&self, key: Key, traced: &Traced) -> io::Result<()> {
+        self.write_bytes(key, &encoded(traced))
+    }
+
+    /// Writes a file whole, or not at all.
+    pub(crate) fn write_bytes(&self, key: Key, bytes: &[u8]) -> io::Result<()> {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         fs::create_dir_all(&self.folder)?;
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
         let beside = self.folder.join(format!(".{:032x}.{}.{number}", key.0, std::process::id()));
-        let written = fs::write(&beside, encoded(traced)).and_then(|()| fs::rename(&beside, self.path(key)));
+        let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, self.path(key)));
         if written.is_err() {
             // What could not be written whole is of no use; that it may stay changes nothing.
             let _ = fs::remove_file(&beside);

@@ -12,6 +12,7 @@ pub mod closed_form;
 mod cutout;
 mod geometry;
 mod kept;
+mod kept_radiance;
 mod light_seen;
 mod light_view;
 mod progressive;
@@ -23,6 +24,7 @@ mod visibility;
 
 pub use geometry::{Geometry, Shown, Surface};
 pub use kept::{Kept, Key, SceneKey, Traced};
+pub use kept_radiance::KeptRadiance;
 pub use light_seen::{Blocker, LightSeen, Spot};
 pub use progressive::Progressive;
 pub use radiance::{PathTracer, RadianceOptions, RadianceTruth};

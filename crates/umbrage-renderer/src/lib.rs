@@ -1,5 +1,5 @@
-//! A renderer over `umbrage`: a G-buffer, each light added under its visibility (or its radiance as
-//! it is), tone mapping. It is one consumer of the library among others: whatever it uses of it, a
+//! A renderer over `umbrage`: a G-buffer, the sky behind it, each light added under its visibility
+//! (or its radiance as it is), tone mapping. It is one consumer of the library among others: whatever it uses of it, a
 //! host engine may use as well.
 //!
 //! ```no_run
@@ -13,6 +13,7 @@
 //! # Ok(()) }
 //! ```
 
+mod backdrop;
 mod change;
 mod gbuffer;
 mod lit;
@@ -27,11 +28,13 @@ mod targets;
 mod tonemap;
 mod turns;
 
+use backdrop::Backdrop;
 use gbuffer::GBufferPass;
 use lit::{Lit, Target, Visible};
 use many::Pooled;
 use overlay::Overlay;
 use shading::{MOST_LIGHTS, Shading, Together};
+use std::borrow::Cow;
 use targets::{PICTURE, Targets};
 use tonemap::ToneMap;
 pub use turns::Lights;
@@ -40,11 +43,12 @@ use umbrage_core::{Camera, Light, LightShape, LitPart, Scene, Texture};
 use web_time::{Duration, Instant};
 
 /// Every shader of the renderer, for tests.
-pub const SHADERS: &[Shader] = &[gbuffer::SHADER, overlay::SHADER, radiance::SHADER, shading::SHADER, tonemap::SHADER];
+pub const SHADERS: &[Shader] =
+    &[backdrop::SHADER, gbuffer::SHADER, overlay::SHADER, radiance::SHADER, shading::SHADER, tonemap::SHADER];
 
 /// One light and the technique that shadows it.
 pub struct LightPass {
-    /// Index into [`Scene::lights`].
+    /// Number of the light, see [`Scene::numbered_lights`].
     pub light: usize,
     /// Finds its visibility, or its radiance.
     pub technique: Box<dyn Technique>,
@@ -70,6 +74,8 @@ pub struct Renderer {
     prepare_ms: f64,
     record_casters_ms: f64,
     overlay: Option<Overlay>,
+    /// Made when a sky first shines.
+    backdrop: Option<Backdrop>,
     clips_lights: bool,
     pool: Option<Pooled>,
     /// Of all lights, where they share one.
@@ -86,7 +92,8 @@ impl Renderer {
         gpu.check_size("the picture", width, height)?;
         let casters = Casters::new(gpu, scene)?;
         let (shading, tonemap) = (Shading::new(gpu, scene.ambient.to_array()), ToneMap::new(gpu));
-        let lights = checked_lights(gpu, &shading, &scene.lights, (width, height), lights)?;
+        let scene_lights: Vec<Light> = scene.numbered_lights().map(Cow::into_owned).collect();
+        let lights = checked_lights(gpu, &shading, &scene_lights, (width, height), lights)?;
         let textured = scene.lights.iter().any(|l| matches!(l.shape, LightShape::Rect { texture: Some(_), .. }));
         Ok(Self {
             lights,
@@ -98,7 +105,8 @@ impl Renderer {
             shading,
             tonemap,
             recorder: Recorder::new(gpu),
-            scene_lights: scene.lights.clone(),
+            scene_lights,
+            backdrop: None,
             textures: if textured { scene.textures.clone() } else { Vec::new() },
             ambient: scene.ambient.to_array(),
             prepare_ms: 0.0,
@@ -169,6 +177,14 @@ impl Renderer {
         if !is_at_once {
             passes.owner(Owner::Host("shading"));
             self.shading.record_start(&mut passes, &self.targets);
+        }
+        let shines = |lit: &&Lit| matches!(lit.light.shape, LightShape::Environment(_));
+        if let Some(lit) = self.lights.iter().find(shines)
+            && let LightShape::Environment(environment) = &lit.light.shape
+        {
+            passes.owner(Owner::Host("sky"));
+            let backdrop = self.backdrop.get_or_insert_with(|| Backdrop::new(&self.gpu));
+            backdrop.record(&self.gpu, &mut passes, &scene.view(&lit.light), environment, &gbuffer.radiance_view);
         }
         if let Some(overlay) = &self.overlay {
             let start = Instant::now();

@@ -210,6 +210,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             overlay: lights == Lights::Four,
             bytes: false,
             churn: 0,
+            bake_cache: None,
             command: command.clone(),
         };
         let report = plan.run(&gpu, &Lines)?;

@@ -5,7 +5,8 @@ use crate::{
     error::Error,
     given::Given,
     measure::{Frames, is_of_technique},
-    pictures::{Pictures, grey, opaque},
+    path_traced::lit_by_sky,
+    pictures::{Pictures, grey, opaque, tone_mapped},
     record::{CostRecord, PassRecord, RadianceRecord, ReferenceRecord, ResultRecord, ScoresRecord},
     source::Source,
     stage::{Actor, Stage},
@@ -15,7 +16,7 @@ use std::{collections::BTreeMap, time::Duration};
 use umbrage::{Answer, Gpu, Technique};
 use umbrage_core::Image;
 use umbrage_metrics::{
-    Comparison, RadianceComparison, Scores, aliasing, around_borders, footprint_colors, heat, luminance, reach_of,
+    Comparison, RadianceComparison, Scores, aliasing, around_borders, flip_of_colors, footprint_colors, heat, luminance, reach_of,
     score, score_radiance, seam, standard_error, texel_footprint,
 };
 use umbrage_reference::Geometry;
@@ -80,8 +81,8 @@ impl Cell<'_> {
 
     /// The technique of a choice, where it can do the light.
     pub(crate) fn actor(&self, stage: &Stage<'_>, choice: &Choice) -> Result<Actor, Error> {
-        choice.supports(self.source.scene.lights[self.light].shape.kind())?;
-        Actor::of(choice, stage.gpu())
+        choice.supports(self.source.light(self.light)?.shape.kind())?;
+        stage.actor(choice)
     }
 
     fn fill(
@@ -143,14 +144,24 @@ impl Cell<'_> {
     fn radiance(&self, renderer: &Renderer) -> Result<Found, Error> {
         let picture = renderer.radiance(0)?;
         let (reference, mask) = (self.true_radiance()?, &self.truth.mask);
-        let scores = score_radiance(&RadianceComparison { produced: &picture, reference, mask })?.into();
+        let scores = score_radiance(&RadianceComparison { produced: &picture, reference, mask })?;
+        let scores = RadianceRecord::new(scores, self.radiance_flip(&picture)?);
         Ok(Found::Radiance { scores, picture })
+    }
+
+    /// How different the tone-mapped pictures look; they are the same where nothing is scored.
+    fn radiance_flip(&self, produced: &Image<[f32; 3]>) -> Result<f64, Error> {
+        let reference = self.true_radiance()?;
+        let mut judged = reference.clone();
+        let pixels = judged.data.iter_mut().zip(&produced.data).zip(&self.truth.mask.data);
+        pixels.filter(|(_, scored)| **scored).for_each(|((into, color), _)| *into = *color);
+        let shown = |image: &Image<[f32; 3]>| opaque(&image.map(|color| tone_mapped((*color).into())));
+        Ok(flip_of_colors(&shown(&judged), &shown(reference)))
     }
 
     fn true_radiance(&self) -> Result<&Image<[f32; 3]>, Error> {
         self.truth.radiance.as_ref().ok_or_else(|| {
-            let kind = self.source.scene.lights[self.light].shape.kind().name();
-            let what = format!("{kind} lights: the truth of their radiance is not known");
+            let what = "lights other than the environment: the truth of their radiance is not known".into();
             umbrage::Error::Unsupported { technique: "radiance".into(), what }.into()
         })
     }
@@ -167,8 +178,13 @@ impl Cell<'_> {
     /// The record of the truth itself, with the scene shaded under it. Where the GPU fails, that
     /// picture is left out: the techniques' own records say why.
     pub(crate) fn reference(&self, place: &str, pictures: &mut Pictures) -> Result<ReferenceRecord, Error> {
-        let Truth { visibility, mask, hard, source, samples, seconds, .. } = self.truth;
+        let Truth { visibility, hard, radiance, .. } = self.truth;
         let mut shown = BTreeMap::new();
+        if let Some(radiance) = radiance {
+            let color = opaque(&lit_by_sky(self.source, &self.tracing.geometry, radiance));
+            shown.insert("color", pictures.add(&format!("{place}-reference-color"), &color)?);
+            return Ok(self.reference_record(shown));
+        }
         if let Ok(color) = self.shade(visibility) {
             shown.insert("color", pictures.add(&format!("{place}-reference-color"), &opaque(&color))?);
         }
@@ -176,7 +192,12 @@ impl Cell<'_> {
         if let Some(hard) = hard {
             shown.insert("hard", pictures.add(&format!("{place}-reference-hard"), &grey(hard))?);
         }
-        Ok(ReferenceRecord {
+        Ok(self.reference_record(shown))
+    }
+
+    fn reference_record(&self, shown: BTreeMap<&'static str, String>) -> ReferenceRecord {
+        let Truth { mask, hard, source, samples, seconds, .. } = self.truth;
+        ReferenceRecord {
             source: source.clone(),
             samples: *samples,
             seconds: *seconds,
@@ -184,7 +205,7 @@ impl Cell<'_> {
             hard_mae: hard.as_ref().and_then(|hard| self.score(hard, None).ok()).map(|s| s.mae),
             standard_error: self.standard_error(),
             pictures: shown,
-        })
+        }
     }
 
     /// The scene in colour under visibility that is known.
@@ -203,8 +224,8 @@ impl Cell<'_> {
 
     /// What the truth's own randomness is about, where it is known.
     fn standard_error(&self) -> Option<f64> {
-        let Truth { visibility, mask, samples, .. } = self.truth;
-        samples.map(|samples| if samples == 1 { 0.0 } else { standard_error(visibility, mask, samples) })
+        let Truth { visibility, mask, samples, noise, .. } = self.truth;
+        noise.or_else(|| samples.map(|samples| if samples == 1 { 0.0 } else { standard_error(visibility, mask, samples) }))
     }
 
     /// For techniques with maps: how large their texels are on the screen.
@@ -253,7 +274,8 @@ fn cost(frames: &Frames, renderer: &Renderer) -> CostRecord {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::Silent;
+    use crate::{bakes::Bakes, progress::Silent};
+    use umbrage_reference::RadianceOptions;
     use umbrage::{InOrder, Inside, Passes, RadianceTarget, Stats, View, VisibilityTarget, fullscreen::attachment};
 
     /// The same radiance from everywhere.
@@ -311,12 +333,13 @@ mod tests {
         let gpu = Gpu::request(None).unwrap();
         let source = Source::open("contact:0.2").unwrap();
         let tracing = Tracing::new(&source, 48, 36);
-        let mut truth = tracing.truth(None, &source, 0, 1, &Silent).unwrap();
+        let options = RadianceOptions { samples: 1, bounces: 0 };
+        let mut truth = tracing.truth(None, &source, 0, &options, &Silent).unwrap();
         truth.radiance = Some(Image::filled(48, 36, [0.5; 3]));
         let choice = Choice::parse(&umbrage::Registry::default(), "none", &[]).unwrap();
         let run = |truth: &Truth, technique: Box<dyn Technique>| {
             let cell = Cell { gpu: &gpu, source: &source, light: 0, truth, tracing: &tracing, still: 0 };
-            let mut stage = Stage::new(&gpu, &source, (48, 36));
+            let mut stage = Stage::new(&gpu, &source, (48, 36), Bakes::new(&source, None, &Silent));
             let mut record = ResultRecord::of(&choice);
             let mut pictures = Pictures::default();
             let acted = stage.act(0, Actor::new(&gpu, technique), |renderer| {

@@ -147,7 +147,7 @@ const fn radiance(
 }
 
 /// Those of techniques that answer with radiance; shown where there are some.
-pub const RADIANCE_COLUMNS: [Column; 4] = [
+pub const RADIANCE_COLUMNS: [Column; 5] = [
     radiance(
         "relative mae",
         "relative_mae",
@@ -171,6 +171,14 @@ pub const RADIANCE_COLUMNS: [Column; 4] = [
         4,
         false,
         "Mean error of luminance, as a share of the truth's mean luminance: over 0 where the picture is too bright.",
+    ),
+    radiance(
+        "radiance flip",
+        "flip",
+        Some("less"),
+        4,
+        true,
+        "ꟻLIP of the tone-mapped pictures: the difference seen by somebody who flips between them, 0 to 1.",
     ),
     radiance(
         "negative %",

@@ -1,6 +1,8 @@
 //! The comparison: scenes × lights × techniques against the truth.
 
 use crate::{
+    bakes::Bakes,
+    bounced,
     cell::Cell,
     choice::Choice,
     error::Error,
@@ -16,6 +18,7 @@ use crate::{
 };
 use std::path::PathBuf;
 use umbrage::Gpu;
+use umbrage_reference::RadianceOptions;
 
 /// What to compare, and how.
 #[derive(Clone, Debug)]
@@ -32,6 +35,8 @@ pub struct Compare {
     pub reference: Option<PathBuf>,
     /// A folder where what is traced is kept and found again.
     pub truth_cache: Option<PathBuf>,
+    /// A folder where baked transfer is kept and found again.
+    pub bake_cache: Option<PathBuf>,
     /// Frames to measure times over.
     pub frames: u32,
     /// Frames in which nothing changes between these and the one that is scored, for techniques
@@ -98,11 +103,16 @@ impl Run<'_> {
         self.progress.begin(&format!("{}: geometry", scene.name), 1);
         let tracing = Tracing::new(source, width, height).kept_in(source, plan.truth_cache.as_deref());
         self.progress.end();
-        let mut stage = Stage::new(self.gpu, source, (width, height));
+        let bakes = Bakes::new(source, plan.bake_cache.as_deref(), self.progress);
+        let mut stage = Stage::new(self.gpu, source, (width, height), bakes);
         let mut records = Vec::new();
         for &light in lights {
+            let kind = source.light(light)?.shape.kind();
             let place = format!("{number}-{}-light{light}", source.stem());
-            records.push(self.light(&mut stage, source, light, &tracing, &place)?);
+            for (bounces, choices) in bounced::groups(kind, &plan.choices) {
+                let place = if bounces == 0 { place.clone() } else { format!("{place}-bounces{bounces}") };
+                records.push(self.light(&mut stage, source, (light, bounces), &choices, &tracing, &place)?);
+            }
         }
         let coarse = coarse_maps(&records);
         coarse.iter().for_each(|note| self.progress.note(&format!("{}: {note}", scene.name)));
@@ -118,24 +128,27 @@ impl Run<'_> {
         })
     }
 
-    /// One light under all techniques; `place` starts the names of its pictures.
+    /// One light under these techniques; `place` starts the names of its pictures.
     fn light(
         &mut self,
         stage: &mut Stage<'_>,
         source: &Source,
-        light: usize,
+        (light, bounces): (usize, u32),
+        choices: &[&Choice],
         tracing: &Tracing,
         place: &str,
     ) -> Result<LightRecord, Error> {
         let (scene, plan) = (&source.scene, self.plan);
-        let kind = scene.lights[light].shape.kind();
-        let truth = tracing.truth(plan.reference.as_deref(), source, light, plan.samples, self.progress)?;
+        let kind = source.light(light)?.shape.kind();
+        let options = RadianceOptions { samples: plan.samples, bounces };
+        let truth = tracing.truth(plan.reference.as_deref(), source, light, &options, self.progress)?;
+        choices.iter().filter(|choice| choice.supports(kind).is_ok()).for_each(|choice| stage.bakes().ahead(choice));
         let cell = Cell { gpu: self.gpu, source, light, truth: &truth, tracing, still: plan.still };
         let reference = cell.reference(place, &mut self.pictures)?;
         let what = format!("{}, light {light} ({}): techniques", scene.name, kind.name());
-        self.progress.begin(&what, plan.choices.len() as u64);
+        self.progress.begin(&what, choices.len() as u64);
         let mut results = Vec::new();
-        for choice in &plan.choices {
+        for choice in choices {
             results.push(cell.run(stage, choice, plan.frames, place, &mut self.pictures));
             self.progress.at(results.len() as u64);
         }

@@ -33,7 +33,9 @@ macro_rules! not_in_browsers {
 }
 
 not_in_browsers! {
+    mod bakes;
     mod bench;
+    mod bounced;
     mod cell;
     mod churn;
     mod column;

@@ -66,7 +66,7 @@ impl PathTraced {
         };
         match aov {
             Aov::Radiance => Ok(Picture::Radiance(radiance(progress)?.radiance)),
-            Aov::Color => Ok(Picture::Color(shown(source, &geometry, &radiance(progress)?.radiance))),
+            Aov::Color => Ok(Picture::Color(lit_by_sky(source, &geometry, &radiance(progress)?.radiance))),
             Aov::Scored => Ok(Picture::Mask(geometry.receives)),
             Aov::Depth => Ok(Picture::Depth(geometry.depth)),
             Aov::Normal => Ok(Picture::Normal(geometry.normal.map(|n| n.to_array()))),
@@ -91,7 +91,7 @@ fn summary(truth: &RadianceTruth, bounces: u32, seconds: f64) -> String {
 
 /// Radiance as the renderer shows it, with the sky where there is no surface; what does not receive
 /// is black.
-fn shown(source: &Source, geometry: &Geometry, radiance: &Image<[f32; 3]>) -> Image<[u8; 4]> {
+pub(crate) fn lit_by_sky(source: &Source, geometry: &Geometry, radiance: &Image<[f32; 3]>) -> Image<[u8; 4]> {
     let (width, height) = radiance.size();
     let camera = &source.scene.camera;
     let environment = source.scene.environment.as_ref();

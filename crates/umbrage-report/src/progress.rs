@@ -6,6 +6,10 @@ pub trait Progress: Sync {
     fn begin(&self, what: &str, steps: u64);
     /// So many steps of the stage are done.
     fn at(&self, done: u64);
+    /// So many of so many steps are done, where their number was not known at the beginning.
+    fn of(&self, done: u64, steps: u64) {
+        self.at(u64::from(done == steps));
+    }
     /// The stage is over.
     fn end(&self);
     /// Something that a user should know and that ends nothing.

@@ -47,7 +47,8 @@ pub struct SceneRecord {
 pub struct LightRecord {
     /// Its number in the scene, from 0.
     pub light: usize,
-    /// `point`, `spot`, `directional`, `sun`, `sphere`, `ellipsoid`, `disc`, `rect` or `line`.
+    /// `point`, `spot`, `directional`, `sun`, `sphere`, `ellipsoid`, `disc`, `rect`, `line` or
+    /// `environment`.
     pub kind: &'static str,
     /// True where it has an extent.
     pub soft: bool,
@@ -74,7 +75,8 @@ pub struct ReferenceRecord {
     #[serde(serialize_with = "maybe_six")]
     pub hard_mae: Option<f64>,
     /// What its own randomness is about, as a mean over the scored pixels, see
-    /// [`umbrage_metrics::standard_error`]; null for a stored picture.
+    /// [`umbrage_metrics::standard_error`]; null for a stored picture. Of radiance as a share of
+    /// the mean luminance.
     #[serde(serialize_with = "maybe_six")]
     pub standard_error: Option<f64>,
     /// Pictures by kind, relative to the report: `color`, `visibility`, and `hard` for soft lights.
@@ -239,6 +241,9 @@ pub struct RadianceRecord {
     /// Mean error, over 0 where the picture is too bright.
     #[serde(serialize_with = "maybe_six")]
     pub relative_bias: Option<f64>,
+    /// Mean ꟻLIP of the tone-mapped pictures, with what is not scored as in the truth.
+    #[serde(serialize_with = "six")]
+    pub flip: f64,
     /// Percentage of pixels with a channel under 0.
     #[serde(serialize_with = "six")]
     pub negative_pct: f64,
@@ -248,9 +253,11 @@ pub struct RadianceRecord {
     pub not_finite: usize,
 }
 
-impl From<RadianceScores> for RadianceRecord {
-    fn from(s: RadianceScores) -> Self {
+impl RadianceRecord {
+    /// Of scores, and of the ꟻLIP that belongs to them.
+    pub(crate) fn new(s: RadianceScores, flip: f64) -> Self {
         Self {
+            flip,
             relative_mae: s.relative_mae,
             relative_rmse: s.relative_rmse,
             relative_bias: s.relative_bias,
@@ -359,6 +366,7 @@ mod tests {
             relative_mae: Some(0.1),
             relative_rmse: Some(0.2),
             relative_bias: Some(0.0),
+            flip: 0.3,
             negative_pct: 1.0,
             scored_pixels: 9,
             not_finite: 0,

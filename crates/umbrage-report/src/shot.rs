@@ -1,6 +1,7 @@
 //! One picture of a scene, or of what is inside a technique.
 
 use crate::{
+    bakes::Bakes,
     choice::{Choice, PATH_TRACED},
     error::Error,
     given::Given,
@@ -9,9 +10,9 @@ use crate::{
     source::Source,
     truth::Tracing,
 };
-use std::path::Path;
-use umbrage::{DebugView, Gpu, Technique};
-use umbrage_core::{Image, Light};
+use std::{borrow::Cow, path::{Path, PathBuf}};
+use umbrage::{Answer, DebugView, Gpu, Technique};
+use umbrage_core::{Image, Light, LightKind};
 use umbrage_io::pictures;
 use umbrage_reference::Truth;
 use umbrage_renderer::{LightPass, Renderer};
@@ -77,6 +78,8 @@ pub struct Shot {
     /// Shades by the single-pass algorithm: this share of the light is missing in any light's
     /// shadow.
     pub overlay: Option<f32>,
+    /// A folder where baked transfer is kept and found again.
+    pub bake_cache: Option<PathBuf>,
 }
 
 /// A picture taken.
@@ -137,7 +140,7 @@ impl Shot {
             Method::Technique(_) => 1,
         };
         let tracing = Tracing::new(&self.source, self.size.0, self.size.1);
-        let truth = |samples| Ok::<_, Error>(self.trace(&tracing, self.first_light()?, samples, progress));
+        let truth = |samples| self.trace(&tracing, &*self.first_light()?, samples, progress);
         match &self.aov {
             Aov::Depth => Ok(Picture::Depth(tracing.geometry.depth)),
             Aov::Normal => Ok(Picture::Normal(tracing.geometry.normal.map(|n| n.to_array()))),
@@ -150,7 +153,7 @@ impl Shot {
     }
 
     fn take_on_gpu(&self, gpu: &Gpu, progress: &dyn Progress) -> Result<Picture, Error> {
-        if self.aov == Aov::Radiance {
+        if self.aov == Aov::Radiance && self.answer() == Answer::Visibility {
             return Err(no_radiance());
         }
         let mut techniques: Vec<Box<dyn Technique>> = Vec::new();
@@ -158,14 +161,15 @@ impl Shot {
             Method::RayTraced { samples } => {
                 let tracing = Tracing::new(&self.source, self.size.0, self.size.1);
                 for &light in &self.lights {
-                    let truth = self.trace(&tracing, self.source.light(light)?, *samples, progress);
+                    let truth = self.trace(&tracing, &*self.source.light(light)?, *samples, progress)?;
                     techniques.push(Box::new(Given::new(gpu, &truth.visibility)?));
                 }
             }
             Method::Technique(choice) => {
+                let bakes = Bakes::new(&self.source, self.bake_cache.as_deref(), progress);
                 for &light in &self.lights {
                     choice.supports(self.source.light(light)?.shape.kind())?;
-                    techniques.push(choice.make(gpu)?);
+                    techniques.push(bakes.make(choice, gpu)?);
                 }
             }
         }
@@ -193,7 +197,7 @@ impl Shot {
             Aov::Depth => Picture::Depth(renderer.depth(&scene.camera)?),
             Aov::Normal => Picture::Normal(renderer.normal()?),
             Aov::Visibility | Aov::Scored => Picture::Share(renderer.visibility(0)?),
-            Aov::Radiance => return Err(no_radiance()),
+            Aov::Radiance => Picture::Radiance(renderer.radiance(0)?),
             Aov::Inside(name) => {
                 let views = renderer.technique(0).map(|t| t.inside().debug_views()).unwrap_or_default();
                 let view = views.iter().find(|v| v.name == name).ok_or_else(|| self.no_view(name, &views))?;
@@ -220,17 +224,35 @@ impl Shot {
         Error::Name(format!("there is no `{name}` of this light; its views: {made}"))
     }
 
-    fn first_light(&self) -> Result<&Light, Error> {
+    fn answer(&self) -> Answer {
+        match &self.method {
+            Method::Technique(choice) => choice.info.answer(),
+            Method::RayTraced { .. } => Answer::Visibility,
+        }
+    }
+
+    fn first_light(&self) -> Result<Cow<'_, Light>, Error> {
         self.source.light(self.lights.first().copied().unwrap_or_default())
     }
 
-    fn trace(&self, tracing: &Tracing, light: &Light, samples: u32, progress: &dyn Progress) -> Truth {
+    fn trace(
+        &self,
+        tracing: &Tracing,
+        light: &Light,
+        samples: u32,
+        progress: &dyn Progress,
+    ) -> Result<Truth, Error> {
+        if light.shape.kind() == LightKind::Environment {
+            return Err(Error::Name(format!(
+                "this light is the environment, whose answer is radiance; take `--technique {PATH_TRACED}`"
+            )));
+        }
         let pixels = u64::from(self.size.0) * u64::from(self.size.1);
         let scene = &self.source.scene;
         progress.begin(&format!("{}, {} light: tracing", scene.name, light.shape.kind().name()), pixels);
         let truth = tracing.visibility(light, &scene.textures, samples, progress);
         progress.end();
-        truth
+        Ok(truth)
     }
 }
 
@@ -343,6 +365,7 @@ mod tests {
             size: (32, 24),
             aov: Aov::Visibility,
             overlay: None,
+            bake_cache: None,
         };
         let Picture::Share(picture) = shot.take(None, &Silent).unwrap() else { panic!("no picture of shares") };
         assert_eq!(picture.size(), (32, 24));

@@ -3,8 +3,9 @@
 use crate::error::Error;
 use crate::motion::{Motion, Moving};
 use crate::path::CameraPath;
-use std::path::Path;
-use umbrage_core::{Light, Scene, scenes};
+use std::{borrow::Cow, path::Path};
+use umbrage::Answer;
+use umbrage_core::{Light, LightKind, Scene, scenes};
 
 /// A scene and what there is to say about it.
 #[derive(Clone, Debug)]
@@ -73,42 +74,56 @@ impl Source {
         self
     }
 
-    /// The light of this number.
+    /// The light of this number, see [`Scene::numbered_lights`].
     ///
     /// # Errors
     /// A number that the scene does not have.
-    pub fn light(&self, number: usize) -> Result<&Light, Error> {
-        self.scene.lights.get(number).ok_or_else(|| {
-            Error::scene(
-                &self.asked,
-                match self.scene.lights.len() {
-                    0 if self.scene.environment.is_some() => {
-                        "its only light is the environment, which `render --technique path-traced` shows; add a \
-                         [[light]] for this"
-                            .to_string()
-                    }
-                    n if number == n && self.scene.environment.is_some() => format!(
-                        "light {n} is the environment, whose answer is radiance; take `render --technique path-traced`, \
-                         or one of the lights 0 to {}",
-                        n - 1
-                    ),
-                    0 => "there is no light in it; add one".to_string(),
-                    1 => format!("there is no light {number}; its one light is 0"),
-                    n => format!("there is no light {number}; its lights are 0 to {}", n - 1),
-                },
-            )
+    pub fn light(&self, number: usize) -> Result<Cow<'_, Light>, Error> {
+        self.scene.light(number).ok_or_else(|| {
+            let why = match self.scene.numbered_lights().count() {
+                0 => "there is no light in it; add one".to_string(),
+                1 => format!("there is no light {number}; its one light is 0"),
+                n => format!("there is no light {number}; its lights are 0 to {}", n - 1),
+            };
+            Error::scene(&self.asked, why)
         })
     }
 
-    /// The numbers of the lights to work on: the one asked for, or all.
+    /// The numbers of the lights to work on: the one asked for, or all for which techniques have
+    /// one of these answers.
     ///
     /// # Errors
-    /// A number that the scene does not have.
-    pub fn lights(&self, asked: Option<usize>) -> Result<Vec<usize>, Error> {
-        match asked {
-            Some(light) => self.light(light).map(|_| vec![light]),
-            None => self.light(0).map(|_| (0..self.scene.lights.len()).collect()),
+    /// A number that the scene does not have; no light for such an answer.
+    pub fn lights(&self, asked: Option<usize>, answers: &[Answer]) -> Result<Vec<usize>, Error> {
+        if let Some(light) = asked {
+            return self.light(light).map(|_| vec![light]);
         }
+        let answer = |light: &Light| match light.shape.kind() {
+            LightKind::Environment => Answer::Radiance,
+            _ => Answer::Visibility,
+        };
+        let numbered = (0..).zip(self.scene.numbered_lights());
+        let lights: Vec<usize> = numbered.filter(|(_, l)| answers.contains(&answer(l))).map(|(i, _)| i).collect();
+        if lights.is_empty() {
+            self.light(0)?;
+            let remedy = match answers {
+                [Answer::Radiance] => {
+                    "it has no environment, whose answer is radiance; add [environment], such as `color = [1, 1, 1]`"
+                }
+                _ => {
+                    "its only light is the environment, which `render --technique path-traced` and `prt` show; add a \
+                     [[light]] for this"
+                }
+            };
+            return Err(Error::scene(&self.asked, remedy));
+        }
+        Ok(lights)
+    }
+
+    /// A light to measure yardsticks under, which answer with visibility: this one, or the first
+    /// where it is the environment.
+    pub(crate) fn yardstick_light(&self, number: usize) -> usize {
+        if number == self.scene.lights.len() { 0 } else { number }
     }
 
     /// A name for files: that of the scene file without its extensions, or of the built-in scene.

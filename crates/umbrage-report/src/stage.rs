@@ -1,7 +1,7 @@
 //! One renderer for many techniques: geometry, targets and the renderer's own pipelines are made
 //! once for a scene.
 
-use crate::{choice::Choice, error::Error, source::Source};
+use crate::{bakes::Bakes, choice::Choice, error::Error, source::Source};
 use umbrage::{Gpu, Recorder, Technique, baseline};
 use umbrage_renderer::{LightPass, Renderer};
 
@@ -9,6 +9,7 @@ use umbrage_renderer::{LightPass, Renderer};
 pub(crate) struct Stage<'a> {
     gpu: Gpu,
     source: &'a Source,
+    bakes: Bakes<'a>,
     size: (u32, u32),
     /// Made when it is first needed.
     renderer: Option<Renderer>,
@@ -25,19 +26,24 @@ impl Actor {
     pub(crate) fn new(gpu: &Gpu, technique: Box<dyn Technique>) -> Self {
         Self { technique, recorder: Recorder::new(gpu) }
     }
-
-    /// Of a choice. What the driver has to say against it is its error.
-    ///
-    /// # Errors
-    /// What the adapter can't do.
-    pub(crate) fn of(choice: &Choice, gpu: &Gpu) -> Result<Self, Error> {
-        Ok(Self::new(gpu, gpu.catch(|| choice.make(gpu))?))
-    }
 }
 
 impl<'a> Stage<'a> {
-    pub(crate) fn new(gpu: &Gpu, source: &'a Source, size: (u32, u32)) -> Self {
-        Self { gpu: gpu.clone(), source, size, renderer: None }
+    pub(crate) fn new(gpu: &Gpu, source: &'a Source, size: (u32, u32), bakes: Bakes<'a>) -> Self {
+        Self { gpu: gpu.clone(), source, bakes, size, renderer: None }
+    }
+
+    /// A technique of a choice. What the driver has to say against it is its error.
+    ///
+    /// # Errors
+    /// What the adapter can't do, and what can't be baked.
+    pub(crate) fn actor(&self, choice: &Choice) -> Result<Actor, Error> {
+        Ok(Actor::new(&self.gpu, self.gpu.catch(|| self.bakes.make(choice, &self.gpu))?))
+    }
+
+    /// What techniques are given that want it.
+    pub(crate) fn bakes(&self) -> &Bakes<'a> {
+        &self.bakes
     }
 
     /// Does `work` with `actor` on a light, and gives the actor back. Whatever fails takes the

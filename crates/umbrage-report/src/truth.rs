@@ -3,10 +3,12 @@
 
 use crate::{error::Error, progress::Progress, source::Source};
 use std::{path::Path, time::Instant};
-use umbrage_core::{Image, Light, Texture};
+use umbrage_core::{Environment, Image, Light, LightShape, Scene, Texture};
 use umbrage_io::stored::StoredReference;
 use umbrage_metrics::{contacts, discontinuities};
-use umbrage_reference::{Geometry, Kept, Options, SceneKey, Traced, Tracer};
+use umbrage_reference::{
+    Geometry, Kept, KeptRadiance, Options, PathTracer, RadianceOptions, SceneKey, Traced, Tracer,
+};
 
 /// A scene ready to be traced at one size.
 pub struct Tracing {
@@ -30,6 +32,8 @@ pub struct Truth {
     pub mask: Image<bool>,
     /// The perfect hard shadow, for lights with an extent.
     pub hard: Option<Image<f32>>,
+    /// Of radiance, its standard error at a pixel as a share of the mean luminance.
+    pub noise: Option<f64>,
     /// In words.
     pub source: String,
     /// Rays for each scored pixel; `None` for stored pictures.
@@ -60,7 +64,7 @@ impl Tracing {
     }
 
     /// The truth about light number `index`: stored in `folder`, else traced with `samples` rays
-    /// for each pixel.
+    /// for each pixel; of the environment with so many bounces.
     ///
     /// # Errors
     /// As [`Tracing::stored`].
@@ -69,16 +73,19 @@ impl Tracing {
         folder: Option<&Path>,
         source: &Source,
         index: usize,
-        samples: u32,
+        options: &RadianceOptions,
         progress: &dyn Progress,
     ) -> Result<Truth, Error> {
         let (scene, light) = (&source.scene, source.light(index)?);
+        if let LightShape::Environment(environment) = &light.shape {
+            return self.radiance(source, environment, folder.is_some(), options, progress);
+        }
         let (width, height) = self.geometry.depth.size();
         let what = format!("{}, light {index} ({}): reference", scene.name, light.shape.kind().name());
         progress.begin(&what, u64::from(width) * u64::from(height));
         let truth = match folder {
             Some(folder) => self.stored(folder, source, index, progress),
-            None => Ok(self.trace(light, &scene.textures, samples, progress)),
+            None => Ok(self.trace(&light, &scene.textures, options.samples, progress)),
         };
         progress.end();
         truth
@@ -94,6 +101,7 @@ impl Tracing {
             hard: soft.then(|| self.hard(light, textures, progress)),
             visibility: truth.visibility,
             radiance: None,
+            noise: None,
             source: match samples {
                 1 => "ray-traced, one ray to the light's centre".into(),
                 n => format!("ray-traced, {n} samples"),
@@ -117,13 +125,14 @@ impl Tracing {
     ) -> Result<Truth, Error> {
         let stored = StoredReference::open(folder, &source.stem(), index)?;
         let edges = discontinuities(&stored.depth, &stored.model.map(|&m| m.into()));
-        let light = &source.scene.lights[index];
+        let light = &*source.light(index)?;
         let soft = light.shape.kind().is_soft();
         Ok(Truth {
             mask: without(&stored.mask, &edges),
             hard: soft.then(|| self.hard(light, &source.scene.textures, progress)),
             visibility: stored.visibility,
             radiance: None,
+            noise: None,
             source: format!("stored in {}", folder.display()),
             samples: None,
             seconds: 0.0,
@@ -139,6 +148,67 @@ impl Tracing {
         progress: &dyn Progress,
     ) -> umbrage_reference::Truth {
         self.traced(light, textures, samples, progress).truth
+    }
+
+    /// Paths under an environment.
+    fn radiance(
+        &self,
+        source: &Source,
+        environment: &Environment,
+        is_stored: bool,
+        options: &RadianceOptions,
+        progress: &dyn Progress,
+    ) -> Result<Truth, Error> {
+        if is_stored {
+            let what = "radiance under the environment is traced, not read from --reference; choose another --light";
+            return Err(Error::scene(&source.asked, what));
+        }
+        let (width, height) = self.geometry.depth.size();
+        let scene = &source.scene;
+        let what = format!("{}: tracing paths, {} bounces", scene.name, options.bounces);
+        progress.begin(&what, u64::from(width) * u64::from(height));
+        let traced = self.traced_paths(scene, environment, options, progress);
+        progress.end();
+        let KeptRadiance { truth, seconds } = traced.map_err(|what| Error::scene(&source.asked, what))?;
+        Ok(Truth {
+            mask: without(&truth.scored, &self.edges),
+            noise: Some(truth.relative_error()),
+            visibility: Image::filled(width, height, 0.0),
+            samples: Some(truth.samples),
+            source: format!("path-traced, {} paths, {} bounces", truth.samples, options.bounces),
+            radiance: Some(truth.radiance),
+            hard: None,
+            seconds,
+        })
+    }
+
+    /// What was kept of paths, or else is traced and kept.
+    fn traced_paths(
+        &self,
+        scene: &Scene,
+        environment: &Environment,
+        options: &RadianceOptions,
+        progress: &dyn Progress,
+    ) -> Result<KeptRadiance, String> {
+        let size = self.geometry.depth.size();
+        let kept = self.kept.as_ref().map(|(kept, key)| (kept, key.of_radiance(environment, size, options)));
+        if let Some((kept, key)) = &kept {
+            match kept.read_radiance(*key, size) {
+                Ok(Some(traced)) => return Ok(traced),
+                Ok(None) => {}
+                Err(error) => progress.note(&format!("{}: {error}; traced anew", kept.path(*key).display())),
+            }
+        }
+        let start = Instant::now();
+        let paths = PathTracer::under(&self.tracer, scene, environment)?;
+        let truth = paths.radiance((&self.geometry, &scene.camera), options, &|done, _| progress.at(done))?;
+        let traced = KeptRadiance { truth, seconds: start.elapsed().as_secs_f64() };
+        if let Some((kept, key)) = kept
+            && let Err(error) = kept.write_radiance(key, &traced)
+        {
+            progress.note(&format!("{}: can't be kept ({error})", kept.path(key).display()));
+        }
+        Ok(traced)
     }
 
     fn hard(&self, light: &Light, textures: &[Texture], progress: &dyn Progress) -> Image<f32> {
@@ -228,7 +298,8 @@ mod tests {
         change(&mut source);
         let watch = Watch::default();
         let tracing = Tracing::new(&source, 24, 18).kept_in(&source, Some(folder));
-        let truth = tracing.truth(None, &source, 1, 4, &watch).unwrap();
+        let options = RadianceOptions { samples: 4, bounces: 0 };
+        let truth = tracing.truth(None, &source, 1, &options, &watch).unwrap();
         (truth, watch.traced.into_inner() > 0, watch.notes.into_inner().unwrap())
     }
 

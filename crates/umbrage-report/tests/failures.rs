@@ -150,6 +150,7 @@ fn compare_goes_on_and_the_other_cells_are_right() {
         samples: 4,
         reference: None,
         truth_cache: None,
+        bake_cache: None,
         frames: 1,
         still: 0,
         command: Vec::new(),
@@ -180,6 +181,7 @@ fn bench(scenes: Vec<(Source, Vec<usize>)>, choices: Vec<Choice>, bytes: bool) -
         together: false,
         overlay: false,
         churn: 0,
+        bake_cache: None,
         bytes,
         command: Vec::new(),
     }
@@ -224,6 +226,7 @@ fn sweep_goes_on_and_tries_a_technique_from_outside() {
         samples: 4,
         reference: None,
         truth_cache: None,
+        bake_cache: None,
         frames: 2,
         command: Vec::new(),
     };

@@ -83,6 +83,7 @@ pub(crate) fn picture(what: &What, pane: &PaneState) -> Result<Picture, String> 
         size: what.size,
         aov: Aov::from(pane.picture.as_str()),
         overlay: None,
+        bake_cache: None,
     };
     shot.take(Some(&what.gpu), &Silent).map_err(text)
 }

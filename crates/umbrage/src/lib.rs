@@ -123,8 +123,10 @@ pub mod wgsl {
 /// Every shader of the library: those of the techniques, the adaptor, the denoiser, poses and the
 /// baselines.
 pub fn shaders() -> Vec<Shader> {
-    let own = techniques().iter().flat_map(|t| t.shaders);
-    own.chain([&light_samples::SHADER])
+    let registry = Registry::default();
+    let own: Vec<_> = registry.all().flat_map(|t| t.shaders).collect();
+    own.into_iter()
+        .chain([&light_samples::SHADER])
         .chain(denoise::SHADERS)
         .chain(casters::shaders())
         .chain(baseline::SHADERS)

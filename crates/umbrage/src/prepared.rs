@@ -51,7 +51,9 @@ impl dyn Technique {
 
 /// A sky shines from all sides in many colours: no one number tells how much of it a point sees.
 fn no_share_of_a_sky() -> Error {
-    let what = "the environment, whose answer is radiance, since it answers with visibility".into();
+    let what = "the environment, whose answer is radiance, since it answers with visibility; choose a technique of \
+                `Registry::of_radiance`"
+        .into();
     Error::Unsupported { technique: "this technique".into(), what }
 }
 

@@ -4,7 +4,7 @@ use crate::depth_maps::MapSetup;
 use crate::error::{Error, nearest};
 use crate::settings::{ParamKind, Setting, Settings, Value};
 use crate::technique::{Technique, TechniqueInfo};
-use crate::{Gpu, techniques as built_in};
+use crate::{Answer, Gpu, techniques as built_in};
 use std::fmt;
 
 /// Techniques by id, in the order in which they are best explained. The default are those that are
@@ -12,11 +12,12 @@ use std::fmt;
 #[derive(Clone, Debug)]
 pub struct Registry {
     techniques: Vec<&'static TechniqueInfo>,
+    of_radiance: Vec<&'static TechniqueInfo>,
 }
 
 impl Default for Registry {
     fn default() -> Self {
-        Self { techniques: built_in::BUILT_IN.to_vec() }
+        Self { techniques: built_in::BUILT_IN.to_vec(), of_radiance: built_in::OF_RADIANCE.to_vec() }
     }
 }
 
@@ -25,16 +26,28 @@ impl Registry {
     /// it.
     #[must_use]
     pub fn with(mut self, info: &'static TechniqueInfo) -> Self {
-        match self.techniques.iter_mut().find(|t| t.id == info.id) {
-            Some(old) => *old = info,
-            None => self.techniques.push(info),
+        let known = self.techniques.iter_mut().chain(&mut self.of_radiance).find(|t| t.id == info.id);
+        match (known, info.answer()) {
+            (Some(old), _) if old.answer() == info.answer() => *old = info,
+            (_, Answer::Visibility) => self.techniques.push(info),
+            (_, Answer::Radiance) => self.of_radiance.push(info),
         }
         self
     }
 
-    /// All techniques.
+    /// All techniques that answer with visibility.
     pub fn techniques(&self) -> &[&'static TechniqueInfo] {
         &self.techniques
+    }
+
+    /// All techniques that answer with [radiance](Answer::Radiance), for the light of a sky.
+    pub fn of_radiance(&self) -> &[&'static TechniqueInfo] {
+        &self.of_radiance
+    }
+
+    /// Both, those that answer with visibility first.
+    pub fn all(&self) -> impl Iterator<Item = &'static TechniqueInfo> + '_ {
+        self.techniques.iter().chain(&self.of_radiance).copied()
     }
 
     /// The technique that users call `id`.
@@ -42,7 +55,7 @@ impl Registry {
     /// # Errors
     /// [`Error::Unknown`] with the nearest id.
     pub fn find(&self, id: &str) -> Result<&'static TechniqueInfo, Error> {
-        self.techniques.iter().find(|t| t.id == id).copied().ok_or_else(|| self.unknown(id))
+        self.all().find(|t| t.id == id).ok_or_else(|| self.unknown(id))
     }
 
     fn unknown(&self, id: &str) -> Error {
@@ -52,7 +65,7 @@ impl Registry {
                 Error::Unknown { what, name: format!("{id}` without the feature `{feature}"), nearest: None }
             }
             None => {
-                let nearest = nearest(id, self.techniques.iter().map(|t| t.id));
+                let nearest = nearest(id, self.all().map(|t| t.id));
                 Error::Unknown { what, name: id.into(), nearest }
             }
         }
@@ -101,7 +114,7 @@ impl Registry {
             let knows = |t: &&&TechniqueInfo| {
                 t.params().iter().any(|p| p.name == name && p.kind.words(self).contains(&value.as_str()))
             };
-            let others: Vec<_> = self.techniques.iter().filter(knows).map(|t| t.id).collect();
+            let others: Vec<_> = self.all().filter(|t| knows(&t)).map(|t| t.id).collect();
             if !others.is_empty() {
                 expected.push_str(&format!(
                     "; choose one of these, or a technique that can do `{value}`: {}",
@@ -113,7 +126,8 @@ impl Registry {
     }
 }
 
-/// The techniques that are built in, in the order in which they are best explained.
+/// The techniques that are built in and answer with visibility, in the order in which they are best
+/// explained; [`Registry::of_radiance`] has the others.
 pub fn techniques() -> &'static [&'static TechniqueInfo] {
     built_in::BUILT_IN
 }

@@ -5,7 +5,8 @@ use crate::{
     VisibilityTarget, settings::Configure,
 };
 use std::any::Any;
-use umbrage_core::{LightKind, LightKinds, light_view::LightView};
+use umbrage_core::transfer::{Transfer, Wanted};
+use umbrage_core::{LightKind, LightKinds, Scene, light_view::LightView};
 
 /// Finds which share of one light each visible point sees; or else what light goes from there to
 /// the eye because of it, see [`Answer`].
@@ -63,6 +64,25 @@ pub trait Technique: Any + wgpu::WasmNotSend {
         _order: InOrder,
     ) -> Result<(), Error> {
         self.answer().refuse()
+    }
+
+    /// The baked transfer of the scene that it works from; `None` for techniques that need none.
+    fn wants(&self) -> Option<Wanted> {
+        None
+    }
+
+    /// Works from now on with a transfer that somebody baked as it [wants](Technique::wants) of
+    /// `scene`, the one that the casters are made of: an instance of the transfer is the one that
+    /// [`Casters::instance`](crate::Casters::instance) tells. Where instances were moved or turned
+    /// since, their own shadows and reflections go with them, and those on others stay.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for techniques that want none; [`Error::Scene`] for a transfer of
+    /// other settings, or of another scene; [`Error::Size`] beyond the device's limits. The one
+    /// before stays in use then.
+    fn take_transfer(&mut self, _gpu: &Gpu, _transfer: &Transfer, _scene: &Scene) -> Result<(), Error> {
+        let what = "baked transfer, which it has no use for".into();
+        Err(Error::Unsupported { technique: "this technique".into(), what })
     }
 
     /// In place of [`Technique::record_visibility`] where shaders of the host's own find the
@@ -230,6 +250,8 @@ pub enum Family {
     Volumes,
     /// Works from silhouettes or triangles and the extent of the light.
     AreaLights,
+    /// Works from what was computed of the scene before.
+    Baked,
 }
 
 impl Family {
@@ -362,6 +384,16 @@ impl TechniqueInfo {
         if self.lights.contains(kind) {
             return Ok(());
         }
-        Err(Error::Unsupported { technique: self.id.into(), what: format!("{} lights", kind.name()) })
+        let what = match (kind, self.answer()) {
+            (LightKind::Environment, _) => {
+                let others: Vec<&str> = Registry::default().of_radiance().iter().map(|info| info.id).collect();
+                format!("the environment, whose answer is radiance; choose {}", others.join(" or "))
+            }
+            (_, Answer::Radiance) => {
+                format!("{} lights, whose answer is visibility; its light is the environment", kind.name())
+            }
+            _ => format!("{} lights", kind.name()),
+        };
+        Err(Error::Unsupported { technique: self.id.into(), what })
     }
 }

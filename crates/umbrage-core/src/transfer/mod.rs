@@ -16,7 +16,9 @@
 mod baked;
 mod points;
 mod stored;
+mod wanted;
 
 pub use baked::{BakedMesh, Kind, Transfer};
 pub use points::{Points, Sides};
 pub use stored::{Cluster, Codes, Stored};
+pub use wanted::Wanted;

@@ -1,6 +1,7 @@
 //! The measurement: techniques take turns frame by frame.
 
 use crate::{
+    bakes::Bakes,
     bench::{
         baseline::Baseline,
         record::{BenchLight, BenchReport, BenchScene},
@@ -20,6 +21,7 @@ use crate::{
     stage::check_choices,
     way::Way,
 };
+use std::path::PathBuf;
 use umbrage::{Gpu, Recorder, Technique, baseline};
 use umbrage_core::{Light, LightKind};
 use umbrage_reference::Tracer;
@@ -52,6 +54,8 @@ pub struct Bench {
     pub bytes: bool,
     /// So many instances are removed and inserted again in every frame.
     pub churn: u32,
+    /// A folder where baked transfer is kept and found again.
+    pub bake_cache: Option<PathBuf>,
     /// The command line, for the record.
     pub command: Vec<String>,
 }
@@ -74,7 +78,7 @@ impl Bench {
         check_choices(&self.choices, gpu)?;
         self.check_path()?;
         for (source, lights) in &self.scenes {
-            lights.iter().try_for_each(|&light| source.light(light).and_then(|found| self.check_way(light, found)))?;
+            lights.iter().try_for_each(|&light| source.light(light).and_then(|found| self.check_way(light, &found)))?;
         }
         let mut scenes = Vec::new();
         for (source, lights) in &self.scenes {
@@ -82,7 +86,9 @@ impl Bench {
             let motion = Motion::new(self.moving, scene);
             let tracer = self.path.map(|_| Tracer::new(scene));
             let groups: Vec<&[usize]> = if self.together { vec![lights] } else { lights.chunks(1).collect() };
-            let measure = |lights| self.lights(gpu, source, &motion, tracer.as_ref(), lights, progress);
+            let bakes = Bakes::new(source, self.bake_cache.as_deref(), progress);
+            self.choices.iter().for_each(|choice| bakes.ahead(choice));
+            let measure = |lights| self.lights(gpu, (source, &bakes), &motion, tracer.as_ref(), lights, progress);
             let lights = groups.into_iter().map(measure).collect::<Result<_, _>>()?;
             scenes.push(BenchScene {
                 name: scene.name.clone(),
@@ -99,6 +105,10 @@ impl Bench {
     }
 
     fn check_way(&self, number: usize, light: &Light) -> Result<(), Error> {
+        if self.path.is_some() && light.shape.kind() == LightKind::Environment {
+            let what = format!("--path measures flicker of visibility; light {number} is the environment: choose --light");
+            return Err(Error::Name(what));
+        }
         if self.path.is_none_or(|way| way.moves(light)) {
             return Ok(());
         }
@@ -127,28 +137,29 @@ impl Bench {
     fn lights(
         &self,
         gpu: &Gpu,
-        source: &Source,
+        (source, bakes): (&Source, &Bakes<'_>),
         motion: &Motion,
         tracer: Option<&Tracer>,
         lights: &[usize],
         progress: &dyn Progress,
     ) -> Result<BenchLight, Error> {
         let (light, kind, together) = match lights {
-            [light] if !self.together => (Some(*light), source.scene.lights[*light].shape.kind().name(), None),
+            [light] if !self.together => (Some(*light), source.light(*light)?.shape.kind().name(), None),
             _ => (None, "all", Some(lights.to_vec())),
         };
         let mut record =
             BenchLight { light, kind, together, flicker_reference: None, flicker_points: None, results: Vec::new() };
         let mut counting = self.bytes.then(|| Recorder::counting(gpu)).transpose()?;
         progress.begin(&format!("{}, {}", source.scene.name, record.title()), self.frames.into());
-        let mut runners = self.runners(gpu, source, lights);
-        let followed = lights.first().map(|&light| &source.scene.lights[light]);
+        let mut runners = self.runners(gpu, (source, bakes), lights);
+        let followed = lights.first().map(|&light| source.light(light)).transpose()?;
         let mut follower = tracer.map(|tracer| Follower::new(source, tracer, self.samples, self.choices.len()));
         for round in 0..WARM_UP + self.frames {
             let counted = round.saturating_sub(WARM_UP);
             let on_path = self.path.map(|path| path.camera(&source.scene.camera, counted, self.size.1));
             let camera = on_path.unwrap_or_else(|| motion.camera(&source.scene.camera, round));
-            let light = self.path.zip(followed).map(|(way, light)| way.light(light, &source.scene.camera, counted));
+            let light = self.path.zip(followed.as_deref());
+            let light = light.map(|(way, light)| way.light(light, &source.scene.camera, counted));
             for runner in &mut runners {
                 if let Ok(renderer) = &mut runner.renderer {
                     motion.apply(renderer, &source.scene, lights, round)?;
@@ -178,10 +189,12 @@ impl Bench {
     }
 
     /// The baselines and all techniques, each with a renderer of its own.
-    fn runners<'a>(&'a self, gpu: &Gpu, source: &Source, lights: &[usize]) -> Vec<Runner<'a>> {
+    fn runners<'a>(&'a self, gpu: &Gpu, (source, bakes): (&Source, &Bakes<'_>), lights: &[usize]) -> Vec<Runner<'a>> {
         let make = |baseline, choice, technique: &dyn Fn(LightKind) -> Result<Box<dyn Technique>, Error>| {
             let pass = |&light: &usize| {
-                let technique = technique(source.scene.lights[light].shape.kind())?;
+                let is_yardstick: bool = Option::is_some(&baseline);
+                let light = if is_yardstick { source.yardstick_light(light) } else { light };
+                let technique = technique(source.light(light)?.shape.kind())?;
                 Ok(LightPass { light, technique })
             };
             let renderer = gpu.catch(|| {
@@ -206,9 +219,9 @@ impl Bench {
         let techniques = self
             .choices
             .iter()
-            .map(|choice| make(None, Some(choice), &|kind| choice.supports(kind).and_then(|()| choice.make(gpu))));
+            .map(|choice| make(None, Some(choice), &|kind| choice.supports(kind).and_then(|()| bakes.make(choice, gpu))));
         let overlays = self.choices.iter().filter(|_| self.overlay).map(|choice| {
-            let runner = make(None, Some(choice), &|kind| choice.supports(kind).and_then(|()| choice.make(gpu)));
+            let runner = make(None, Some(choice), &|kind| choice.supports(kind).and_then(|()| bakes.make(choice, gpu)));
             let set = |mut renderer: Renderer| Ok(renderer.set_overlay(Some(DARKNESS)).map(|()| renderer)?);
             Runner { renderer: runner.renderer.and_then(set), overlay: true, ..runner }
         });

@@ -48,6 +48,7 @@ pub(crate) fn fixture() -> SweepReport {
             reason: None,
             errors: scores.as_ref().map(errors).unwrap_or_default(),
             scores,
+            radiance: None,
             frames: 5,
             cost: Some(cost(Some(ms + 1.0), 0.0, ms + 9.0)),
             over_floor_ms: Some(ms),

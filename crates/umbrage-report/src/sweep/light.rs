@@ -2,19 +2,20 @@
 //! its time is known.
 
 use crate::{
+    bounced::bounces,
     cell::{Cell, Found, Scored},
     choice::Choice,
     error::Error,
     pictures::Pictures,
     progress::Progress,
-    record::{CostRecord, ScoresRecord},
+    record::CostRecord,
     source::Source,
     stage::{Actor, Stage},
     status::Status,
     sweep::{
         answers::answers,
         curve::Curve,
-        measures::errors,
+        measures::{errors, radiance_errors},
         plan::Plan,
         record::{Skipped, SweepCurve, SweepLight, SweepResult},
         time::{Timed, Timing, bare_size},
@@ -22,7 +23,8 @@ use crate::{
     truth::{Tracing, Truth},
 };
 use std::collections::BTreeMap;
-use umbrage::{Answer, Gpu};
+use umbrage::Gpu;
+use umbrage_renderer::Renderer;
 
 pub(crate) struct LightRun<'a> {
     pub gpu: &'a Gpu,
@@ -30,7 +32,8 @@ pub(crate) struct LightRun<'a> {
     pub light: usize,
     pub frames: u32,
     pub tracing: &'a Tracing,
-    pub truth: &'a Truth,
+    /// With as many bounces as settings have.
+    pub truths: &'a [(u32, Truth)],
     pub progress: &'a dyn Progress,
 }
 
@@ -43,24 +46,30 @@ impl LightRun<'_> {
         place: &str,
         pictures: &mut Pictures,
     ) -> Result<SweepLight, Error> {
-        let Self { gpu, source, light, tracing, truth, .. } = *self;
+        let Self { gpu, source, light, tracing, .. } = *self;
         let kind = source.light(light)?.shape.kind();
-        let cell = Cell { gpu, source, light, truth, tracing, still: 0 };
-        let reference = cell.reference(place, pictures)?;
+        let cell = |truth| Cell { gpu, source, light, truth, tracing, still: 0 };
+        let truth = |bounces| {
+            let of = self.truths.iter().find(|(of, _)| *of == bounces).or(self.truths.first());
+            of.map(|(_, truth)| truth).ok_or_else(|| Error::Name("there is no truth to compare with".into()))
+        };
+        let first = plan.settings.first().map_or(0, |setting| bounces(&setting.choice));
+        let reference = cell(truth(first)?).reference(place, pictures)?;
         let size = bare_size(plan.settings.iter().map(|setting| &setting.choice));
-        let mut timing = Timing::new(&source.scene.camera, light, self.frames, size);
+        let lights = (light, source.yardstick_light(light));
+        let mut timing = Timing::new(&source.scene.camera, lights, self.frames, size);
         let mut results: Vec<(String, SweepResult)> = Vec::new();
         let what = format!("{}, light {light} ({}): settings", source.scene.name, kind.name());
         self.progress.begin(&what, plan.settings.len() as u64);
         for (done, setting) in (1u64..).zip(&plan.settings) {
+            let cell = cell(truth(bounces(&setting.choice))?);
             let made = cell.actor(stage, &setting.choice);
             let refused = made.as_ref().is_err_and(|error| Status::of(error).0 == Status::Failed);
             if !(refused && setting.by_rule) {
                 let mut result = SweepResult::of(&setting.choice);
                 match made.and_then(|actor| self.scored(&cell, stage, actor)) {
-                    Ok((actor, (scores, cost))) => {
-                        result.errors = errors(&scores);
-                        result.scores = Some(scores);
+                    Ok((actor, (found, cost))) => {
+                        result.set_errors(found);
                         timing.add(stage, results.len(), actor, cost.bytes)?;
                     }
                     Err(error) => result.fail(&error),
@@ -88,12 +97,9 @@ impl LightRun<'_> {
         cell: &Cell<'_>,
         stage: &mut Stage<'_>,
         actor: Actor,
-    ) -> Result<(Actor, (ScoresRecord, CostRecord)), Error> {
-        stage.act(self.light, actor, |renderer| match cell.scored(renderer, 1)? {
-            Scored { found: Found::Visibility { scores, .. }, cost } => Ok((scores, cost)),
-            // The errors of a sweep are those of visibility.
-            Scored { found: Found::Radiance { .. }, .. } => Ok(Answer::Radiance.refuse()?),
-        })
+    ) -> Result<(Actor, (Found, CostRecord)), Error> {
+        let scored = |renderer: &mut Renderer| cell.scored(renderer, 1).map(|Scored { found, cost }| (found, cost));
+        stage.act(self.light, actor, scored)
     }
 }
 
@@ -108,6 +114,7 @@ impl SweepResult {
             status: Status::Ok,
             reason: None,
             scores: None,
+            radiance: None,
             errors: BTreeMap::new(),
             frames: 0,
             cost: None,
@@ -118,8 +125,21 @@ impl SweepResult {
     /// What failed has a reason and nothing else.
     fn fail(&mut self, error: &Error) {
         let (status, reason) = Status::of(error);
-        (self.status, self.reason, self.scores) = (status, Some(reason), None);
+        (self.status, self.reason, self.scores, self.radiance) = (status, Some(reason), None, None);
         self.errors.clear();
+    }
+
+    fn set_errors(&mut self, found: Found) {
+        match found {
+            Found::Visibility { scores, .. } => {
+                self.errors = errors(&scores);
+                self.scores = Some(scores);
+            }
+            Found::Radiance { scores, .. } => {
+                self.errors = radiance_errors(&scores);
+                self.radiance = Some(scores);
+            }
+        }
     }
 
     fn set_time(&mut self, timed: Timed) {

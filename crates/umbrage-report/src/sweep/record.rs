@@ -5,7 +5,7 @@ use crate::{
     bench::record::BenchCost,
     choice::LIGHT_SAMPLES,
     made::Made,
-    record::{ReferenceRecord, ScoresRecord},
+    record::{RadianceRecord, ReferenceRecord, ScoresRecord},
     round::maybe_six,
     spread::Spread,
     status::Status,
@@ -118,6 +118,9 @@ pub struct SweepResult {
     pub reason: Option<String>,
     /// Errors, as `compare` has them; null unless `ok`.
     pub scores: Option<ScoresRecord>,
+    /// Errors of radiance; only there where the technique answers with radiance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radiance: Option<RadianceRecord>,
     /// Those that answers go by, for each of [`crate::MEASURES`] that the light has.
     pub errors: BTreeMap<&'static str, f64>,
     /// Frames that times are medians of: fewer than asked for where they take long.

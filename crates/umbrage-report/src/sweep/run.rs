@@ -1,6 +1,8 @@
 //! A sweep: all lights of all scenes, each scene with one geometry, one renderer and one tracer.
 
 use crate::{
+    bakes::Bakes,
+    bounced,
     choice::Choice,
     error::Error,
     made::Made,
@@ -20,6 +22,7 @@ use crate::{
 };
 use std::path::PathBuf;
 use umbrage::{Gpu, Registry};
+use umbrage_reference::RadianceOptions;
 
 /// What to sweep, and how.
 #[derive(Clone, Debug)]
@@ -40,6 +43,8 @@ pub struct Sweep {
     pub reference: Option<PathBuf>,
     /// A folder where what is traced is kept and found again.
     pub truth_cache: Option<PathBuf>,
+    /// A folder where baked transfer is kept and found again.
+    pub bake_cache: Option<PathBuf>,
     /// Frames to measure times over; fewer for settings that take long.
     pub frames: u32,
     /// The command line, for the record.
@@ -97,7 +102,8 @@ impl Sweep {
         progress.begin(&format!("{}: geometry", scene.name), 1);
         let tracing = Tracing::new(source, width, height).kept_in(source, self.truth_cache.as_deref());
         progress.end();
-        let mut stage = Stage::new(gpu, source, (width, height));
+        let bakes = Bakes::new(source, self.bake_cache.as_deref(), progress);
+        let mut stage = Stage::new(gpu, source, (width, height), bakes);
         let mut record = SweepScene {
             name: scene.name.clone(),
             source: source.asked.clone(),
@@ -109,11 +115,19 @@ impl Sweep {
             lights: Vec::new(),
         };
         for &light in lights {
-            let truth = tracing.truth(self.reference.as_deref(), source, light, self.samples, progress)?;
-            let soft = source.light(light)?.shape.kind().is_soft();
-            let plan = Plan::new(&self.choices, &self.vary, soft)?;
+            let kind = source.light(light)?.shape.kind();
+            let plan = Plan::new(&self.choices, &self.vary, kind.is_soft())?;
+            let choices: Vec<Choice> = plan.settings.iter().map(|setting| setting.choice.clone()).collect();
+            let able = choices.iter().filter(|choice| choice.supports(kind).is_ok());
+            able.for_each(|choice| stage.bakes().ahead(choice));
+            let truth = |(bounces, _)| {
+                let options = RadianceOptions { samples: self.samples, bounces };
+                let truth = tracing.truth(self.reference.as_deref(), source, light, &options, progress)?;
+                Ok::<_, Error>((bounces, truth))
+            };
+            let truths = bounced::groups(kind, &choices).into_iter().map(truth).collect::<Result<Vec<_>, _>>()?;
             let place = format!("{number}-{}-light{light}", source.stem());
-            let run = LightRun { gpu, source, light, frames: self.frames, tracing: &tracing, truth: &truth, progress };
+            let run = LightRun { gpu, source, light, frames: self.frames, tracing: &tracing, truths: &truths, progress };
             record.lights.push(run.run(&plan, &mut stage, &place, pictures)?);
         }
         Ok(record)

@@ -44,6 +44,8 @@ pub(crate) struct Timed {
 pub(crate) struct Timing<'a> {
     camera: &'a Camera,
     light: usize,
+    /// What yardsticks are measured under.
+    yardstick_light: usize,
     frames: u32,
     bare_size: u32,
     /// Those that take turns next, by their numbers, and the memory that they hold.
@@ -63,9 +65,15 @@ struct Batch {
 
 impl<'a> Timing<'a> {
     /// For up to `frames` of each setting, with a bare minimum of this size.
-    pub(crate) fn new(camera: &'a Camera, light: usize, frames: u32, bare_size: u32) -> Self {
+    /// The second light is that of the yardsticks.
+    pub(crate) fn new(
+        camera: &'a Camera,
+        (light, yardstick_light): (usize, usize),
+        frames: u32,
+        bare_size: u32,
+    ) -> Self {
         let (waiting, batches, timed) = (Vec::new(), Vec::new(), Vec::new());
-        Self { camera, light, frames, bare_size, waiting, held: 0, batches, timed }
+        Self { camera, light, yardstick_light, frames, bare_size, waiting, held: 0, batches, timed }
     }
 
     /// A setting that has drawn already and holds so many bytes. Those that are too many to wait
@@ -94,11 +102,14 @@ impl<'a> Timing<'a> {
         let gpu = stage.gpu();
         let mut floor = Runner::new(Actor::new(gpu, baseline::floor(gpu)));
         let mut bare = Runner::new(Actor::new(gpu, baseline::bare_minimum(gpu, self.bare_size, 1)?));
-        floor.warm_up(stage, self.light, self.camera);
-        bare.warm_up(stage, self.light, self.camera);
+        let light = self.yardstick_light;
+        floor.warm_up(stage, light, self.camera);
+        bare.warm_up(stage, light, self.camera);
         for _ in 0..self.frames {
-            let settings = self.waiting.iter_mut().map(|(_, runner)| runner);
-            for runner in [&mut floor, &mut bare].into_iter().chain(settings) {
+            for yardstick in [&mut floor, &mut bare] {
+                yardstick.turn(stage, light, self.camera);
+            }
+            for (_, runner) in &mut self.waiting {
                 runner.turn(stage, self.light, self.camera);
             }
         }

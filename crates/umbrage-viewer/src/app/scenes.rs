@@ -103,7 +103,7 @@ impl Lab {
 
     /// Shows another scene from now on.
     fn enter(&mut self, source: Source) -> Result<(), String> {
-        source.light(0).map_err(|e| e.to_string())?;
+        source.lights(None, &[umbrage::Answer::Visibility]).map_err(|e| e.to_string())?;
         let size = self.panes.first().map_or((64, 48), Pane::size);
         source.notes.iter().for_each(|note| self.face.say(note.clone()));
         let stage = Stage::new(&self.gpu, source, size)?;

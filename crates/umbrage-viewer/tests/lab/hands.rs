@@ -180,6 +180,7 @@ fn rendered(moving: Moving, path: Option<CameraPath>, frame: u32, size: (u32, u3
         size,
         aov: Aov::Color,
         overlay: None,
+        bake_cache: None,
     };
     let Picture::Color(picture) = shot.take(Some(&gpu), &Silent).unwrap() else { panic!("no colours") };
     picture

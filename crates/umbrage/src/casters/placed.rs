@@ -103,6 +103,11 @@ impl Placed {
         }
     }
 
+    /// Joints bend it.
+    pub fn is_bent(&self) -> bool {
+        self.has_own_mesh
+    }
+
     /// What the GPU keeps of it.
     pub(super) fn data(&self, origin: DVec3) -> Instance {
         Instance {

@@ -15,6 +15,7 @@ use crate::{Answer, Gpu, Technique, TechniqueInfo};
 pub use declare::{Group, Setting};
 pub use param::{Param, ParamKind, Value};
 use std::fmt::{self, Debug};
+use umbrage_core::transfer::Wanted;
 
 /// Settings that a technique can be made of.
 pub trait Configure: Group + Clone + Default + Debug + Send + Sync + 'static {
@@ -45,6 +46,11 @@ pub trait Configure: Group + Clone + Default + Debug + Send + Sync + 'static {
         None
     }
 
+    /// The baked transfer that the technique works from; as its [`Technique::wants`].
+    fn wants(&self) -> Option<Wanted> {
+        None
+    }
+
     /// Makes the technique.
     ///
     /// # Errors
@@ -64,6 +70,7 @@ trait AnySettings: Debug + Send + Sync {
     fn make(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error>;
     fn as_filter(&self) -> Option<&dyn Filter>;
     fn maps(&self) -> Option<MapSetup>;
+    fn wants(&self) -> Option<Wanted>;
     fn copy(&self) -> Box<dyn AnySettings>;
 }
 
@@ -86,6 +93,10 @@ impl<T: Configure> AnySettings for T {
 
     fn maps(&self) -> Option<MapSetup> {
         Configure::maps(self)
+    }
+
+    fn wants(&self) -> Option<Wanted> {
+        Configure::wants(self)
     }
 
     fn copy(&self) -> Box<dyn AnySettings> {
@@ -191,6 +202,11 @@ impl Settings {
     /// What maps the technique renders; `None` where it has none.
     pub fn maps(&self) -> Option<MapSetup> {
         self.values.maps()
+    }
+
+    /// The baked transfer that the technique works from, see [`Technique::wants`].
+    pub fn wants(&self) -> Option<Wanted> {
+        self.values.wants()
     }
 }
 

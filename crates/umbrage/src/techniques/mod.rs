@@ -58,6 +58,11 @@ techniques![
     light_mask,
 ];
 
+pub mod prt;
+
+/// Those that answer with radiance, in the same order.
+pub(crate) static OF_RADIANCE: &[&TechniqueInfo] = &[&prt::INFO];
+
 /// What looks up the maps of splits and warps where nothing is said.
 pub(crate) const DEFAULT_FILTER: &TechniqueInfo = &pcf::INFO;
 
