@@ -26,11 +26,14 @@ impl Registry {
     /// it.
     #[must_use]
     pub fn with(mut self, info: &'static TechniqueInfo) -> Self {
-        let known = self.techniques.iter_mut().chain(&mut self.of_radiance).find(|t| t.id == info.id);
-        match (known, info.answer()) {
-            (Some(old), _) if old.answer() == info.answer() => *old = info,
-            (_, Answer::Visibility) => self.techniques.push(info),
-            (_, Answer::Radiance) => self.of_radiance.push(info),
+        let (own, others) = match info.answer() {
+            Answer::Visibility => (&mut self.techniques, &mut self.of_radiance),
+            Answer::Radiance => (&mut self.of_radiance, &mut self.techniques),
+        };
+        others.retain(|t| t.id != info.id);
+        match own.iter_mut().find(|t| t.id == info.id) {
+            Some(old) => *old = info,
+            None => own.push(info),
         }
         self
     }

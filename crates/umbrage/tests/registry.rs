@@ -1,14 +1,14 @@
 //! The registry holds together. Needs no GPU.
 
 use base64::{Engine, prelude::BASE64_STANDARD};
-use std::collections::HashSet;
+use std::{collections::HashSet, sync::LazyLock};
 use umbrage::core::{LightKind, LightKinds};
-use umbrage::{ParamKind, TechniqueInfo, find, techniques};
+use umbrage::{Answer, ParamKind, Registry, TechniqueInfo, find, techniques};
 
 #[test]
 fn ids_are_unique_and_match_their_folders() {
     let mut seen = HashSet::new();
-    for info in techniques() {
+    for info in Registry::default().all() {
         assert!(seen.insert(info.id), "{} comes twice", info.id);
         let folder = format!("{}/src/techniques/{}", env!("CARGO_MANIFEST_DIR"), info.id.replace('-', "_"));
         let pictures = info.readme.split("](").skip(1).filter_map(|link| link.split(')').next());
@@ -21,7 +21,7 @@ fn ids_are_unique_and_match_their_folders() {
 
 #[test]
 fn readmes_begin_with_their_technique() {
-    for info in techniques() {
+    for info in Registry::default().all() {
         assert!(info.readme.starts_with(&format!("# `{}`", info.id)), "{}: heading", info.id);
     }
 }
@@ -53,8 +53,23 @@ fn the_documentation_has_a_picture_of_each_technique() {
 }
 
 #[test]
+fn lists_are_by_what_techniques_answer() {
+    let registry = Registry::default();
+    assert!(registry.techniques().iter().all(|info| info.answer() == Answer::Visibility));
+    assert!(registry.of_radiance().iter().all(|info| info.answer() == Answer::Radiance));
+    for info in registry.all() {
+        let takes_sky = info.lights.contains(LightKind::Environment);
+        assert_eq!(takes_sky, info.answer() == Answer::Radiance, "{}", info.id);
+    }
+    // One of the same id gives its place up to another, whatever that answers.
+    static OTHER: LazyLock<TechniqueInfo> = LazyLock::new(|| TechniqueInfo { title: "other", ..*find("prt").unwrap() });
+    let with = registry.with(&OTHER);
+    assert_eq!(with.of_radiance().iter().map(|info| info.title).collect::<Vec<_>>(), ["other"]);
+}
+
+#[test]
 fn defaults_are_in_range_and_words_are_not_empty() {
-    for info in techniques() {
+    for info in Registry::default().all() {
         assert!(!info.title.is_empty() && !info.summary.is_empty() && !info.source.is_empty());
         let mut names = HashSet::new();
         for p in info.params() {
@@ -74,4 +89,8 @@ fn a_light_that_a_technique_cannot_do_is_refused() {
     assert_eq!(hard_only.supports(LightKind::Spot), Ok(()));
     let refused = hard_only.supports(LightKind::Line).unwrap_err().to_string();
     assert_eq!(refused, "pcf: not for line lights");
+    let of_visibility = find("pcf").unwrap().supports(LightKind::Environment).unwrap_err().to_string();
+    assert_eq!(of_visibility, "pcf: not for the environment, whose answer is radiance; choose prt");
+    let of_radiance = find("prt").unwrap().supports(LightKind::Sphere).unwrap_err().to_string();
+    assert!(of_radiance.starts_with("prt: not for sphere lights, whose answer is visibility"), "{of_radiance}");
 }

@@ -4,7 +4,7 @@
 
 use serde_json::Value;
 use std::{fs, path::Path, path::PathBuf};
-use umbrage::{Param, TechniqueInfo, techniques};
+use umbrage::{Param, Registry, TechniqueInfo, techniques};
 use umbrage_report::{COLUMNS, RAY_TRACED, RAY_TRACED_SUMMARY};
 
 const GUIDE: &str = include_str!("../../../../docs/guide.md");
@@ -52,7 +52,7 @@ fn parameters(params: &[Param]) -> String {
 
 #[test]
 fn the_parameters_of_every_technique_are_those_of_the_registry() {
-    for info in techniques().iter().filter(|t| !t.params().is_empty()) {
+    for info in Registry::default().all().filter(|t| !t.params().is_empty()) {
         check(&readme_of(info), "parameters", &parameters(info.params()));
     }
 }
@@ -136,7 +136,7 @@ fn the_guide_explains_every_scene_and_every_number() {
 
 #[test]
 fn every_technique_has_a_source() {
-    for id in techniques().iter().map(|t| t.id).chain([RAY_TRACED]) {
+    for id in Registry::default().all().map(|t| t.id).chain([RAY_TRACED]) {
         assert!(PAPERS.contains(&format!("| `{id}` |")), "docs/papers.md does not say where {id} comes from");
     }
 }

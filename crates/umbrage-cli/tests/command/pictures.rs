@@ -325,7 +325,10 @@ fn paths_are_traced_to_the_sky_and_wrong_use_is_said() {
         (&["courtyard", "--technique", "path-traced", "--light", "0", "-o", "a.png"], "--light is not for"),
         (&["courtyard", "--technique", "path-traced", "--aov", "visibility", "-o", "a.png"], "--aov radiance"),
         (&["courtyard", "--bounces", "1", "-o", "a.png"], "--bounces is for `path-traced`"),
-        (&["courtyard", "--light", "2", "-o", "a.png"], "light 2 is the environment"),
+        (&["courtyard", "--light", "2", "-o", "a.png"], "whose answer is radiance; choose prt"),
+        (&["courtyard", "--light", "0", "--technique", "prt", "-o", "a.png"], "its light is the environment"),
+        (&["contact", "--technique", "prt", "-o", "a.png"], "add [environment]"),
+        (&["courtyard", "--light", "2", "--technique", "ray-traced", "--aov", "visibility", "-o", "a.png"], "radiance"),
     ] {
         let refused = umbrage(dir.path(), &[&["render"], arguments].concat());
         let error = String::from_utf8_lossy(&refused.stderr);
