@@ -1,6 +1,6 @@
 //! A renderer over `umbrage`: a G-buffer, the sky behind it, each light added under its visibility
-//! (or its radiance as it is), tone mapping. It is one consumer of the library among others: whatever it uses of it, a
-//! host engine may use as well.
+//! (or its radiance as it is), tone mapping. It is one consumer of the library among others:
+//! whatever it uses of it, a host engine may use as well.
 //!
 //! ```no_run
 //! # fn picture(gpu: &umbrage::Gpu, scene: &umbrage::core::Scene) -> Result<(), umbrage::Error> {

@@ -147,7 +147,7 @@ fn no_transfer() -> Error {
 
 fn camera(view: &View<'_>) -> PrtView {
     let origin = DMat4::from_translation(view.casters.origin());
-    // Depth in whole numbers, or that comes to 1 far away, has steps of one size.
+    // Depth in whole numbers, or that is 1 far away, has steps of one size.
     let format = view.receivers.depth.texture().format();
     let is_float = matches!(format, wgpu::TextureFormat::Depth32Float | wgpu::TextureFormat::Depth32FloatStencil8);
     let even = if is_float && view.camera.background_depth() < 0.5 { 0.0 } else { 4e-7 };
