@@ -69,6 +69,8 @@ impl Cache {
         let mut state = self.begun(key, &work, &mut notes)?;
         let mut last = Instant::now();
         let unfinished = self.unfinished_path(key);
+        // A folder that can't be written to is known before the work and not after it.
+        write_whole(&unfinished, &encoded_state(key, &state))?;
         let result = work.run(&mut state, watch, &mut |state| {
             if last.elapsed() >= EVERY {
                 write_whole(&unfinished, &encoded_state(key, state))?;

@@ -13,8 +13,8 @@ use umbrage_reference::Tracer;
 /// Is told how many points are done, of how many; breaks to stop the bake.
 pub type Watch<'a> = &'a (dyn Fn(u64, u64) -> ControlFlow<()> + Sync);
 
-/// Points that all cores take together before anyone is told.
-const BATCH: usize = 1024;
+/// Rays that all cores trace together before anyone is told, a second's work at most.
+const BATCH_RAYS: usize = 1 << 18;
 
 /// How far a bake is. The same work from any state ends in the same transfer.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -89,15 +89,17 @@ impl Work {
         keep: &mut dyn FnMut(&State) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let points = self.surface.point_count();
+        let rays = self.settings.rays as usize;
+        let (most, least) = ((BATCH_RAYS / rays).clamp(32, 1024), (2048 / rays).clamp(1, 8));
         let all = points as u64 * u64::from(self.passes());
         while state.passes < self.passes() {
             let len = self.settings.order.functions() * Self::channels(state.passes);
             state.present.resize(points * len, 0.0);
             while state.points < points {
-                let batch = state.points..(state.points + BATCH).min(points);
+                let batch = state.points..(state.points + most).min(points);
                 let (pass, before) = (state.passes, &state.before);
                 let into = &mut state.present[batch.start * len..batch.end * len];
-                into.par_chunks_mut(len).zip(batch.clone()).with_min_len(8).for_each(|(vector, number)| {
+                into.par_chunks_mut(len).zip(batch.clone()).with_min_len(least).for_each(|(vector, number)| {
                     self.point(pass, number, before, vector);
                 });
                 state.points = batch.end;

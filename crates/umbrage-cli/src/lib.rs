@@ -7,6 +7,7 @@
 //! ```
 
 mod args;
+mod bake;
 mod bars;
 mod bench;
 mod compare;
@@ -50,6 +51,7 @@ enum Command {
     Compare(compare::Compare),
     Bench(bench::Bench),
     Sweep(sweep::Sweep),
+    Bake(bake::Bake),
     #[cfg(feature = "view")]
     View(view::View),
 }
@@ -77,6 +79,7 @@ pub fn run(registry: &Registry, line: impl IntoIterator<Item = OsString>) -> Exi
         Command::Compare(compare) => compare.run(&context),
         Command::Bench(bench) => bench.run(&context),
         Command::Sweep(sweep) => sweep.run(&context),
+        Command::Bake(bake) => bake.run(),
         #[cfg(feature = "view")]
         Command::View(view) => view.run(&context),
     };

@@ -30,6 +30,10 @@ pub enum Error {
     /// The graphics library refused.
     #[error(transparent)]
     Gpu(#[from] umbrage::Error),
+    /// A transfer can't be baked.
+    #[cfg(not(target_family = "wasm"))]
+    #[error(transparent)]
+    Bake(#[from] umbrage_bake::Error),
     /// Pictures can't be compared.
     #[error(transparent)]
     Metrics(#[from] umbrage_metrics::Error),

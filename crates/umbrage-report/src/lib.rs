@@ -33,6 +33,7 @@ macro_rules! not_in_browsers {
 }
 
 not_in_browsers! {
+    mod bake;
     mod bakes;
     mod bench;
     mod bounced;
@@ -60,6 +61,8 @@ not_in_browsers! {
     mod truth;
     mod way;
 
+    pub use umbrage_bake;
+    pub use bake::Bake;
     pub use bench::{Bench, BenchCost, BenchLight, BenchPass, BenchReport, BenchResult, BenchScene, BenchTraffic};
     pub use bench::{Earlier, NoBenchmark};
     pub use path_traced::PathTraced;

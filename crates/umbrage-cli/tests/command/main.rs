@@ -1,5 +1,6 @@
 //! The command as its users run it.
 
+mod bake;
 mod broken_input;
 mod common;
 mod docs;
