@@ -110,7 +110,7 @@ fn read(path: &Path) -> Result<Option<Vec<u8>>, Error> {
     match fs::read(path) {
         Ok(bytes) => Ok(Some(bytes)),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(source) => Err(Error::File { path: path.to_path_buf(), source }),
+        Err(reason) => Err(Error::File { path: path.to_path_buf(), reason }),
     }
 }
 
@@ -121,7 +121,7 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 
 fn write_with(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> Result<(), Error> {
     static COUNT: AtomicU32 = AtomicU32::new(0);
-    let failed = |source| Error::File { path: path.to_path_buf(), source };
+    let failed = |reason| Error::File { path: path.to_path_buf(), reason };
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     folder.map_or(Ok(()), fs::create_dir_all).map_err(failed)?;
     let number = COUNT.fetch_add(1, Ordering::Relaxed);

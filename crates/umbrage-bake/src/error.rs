@@ -15,11 +15,11 @@ pub enum Error {
     #[error("the bake was stopped; started again with the same folder, it continues")]
     Stopped,
     /// A file or folder that can't be read or written. Nothing is half written.
-    #[error("{}: {source}; is there room, and may it be written?", path.display())]
+    #[error("{}: {reason}; is there room, and may it be written?", path.display())]
     File {
         /// Which.
         path: PathBuf,
         /// What the system says.
-        source: std::io::Error,
+        reason: std::io::Error,
     },
 }

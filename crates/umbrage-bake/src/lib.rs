@@ -2,7 +2,8 @@
 //! sky's light makes every point of every surface send out, with shadows and reflections.
 //!
 //! [`bake`] does it on all cores; [`Cache`] keeps the result by the content of meshes, materials
-//! and settings, and continues a bake that was stopped. What T holds and what it does not (the
+//! and settings, and continues a bake that was stopped. [`Storage`] keeps vectors in fewer bytes, and
+//! [`radiance`] is what they make of a light. What T holds and what it does not (the
 //! point's own albedo) is on the page `docs/harmonics.md`.
 //!
 //! ```
@@ -29,8 +30,10 @@ mod error;
 mod file;
 mod gather;
 mod key;
+mod radiance;
 mod rays;
 mod settings;
+mod storage;
 mod surface;
 mod tessellate;
 mod wire;
@@ -39,6 +42,8 @@ mod work;
 pub use cache::{Cache, Kept};
 pub use error::Error;
 pub use key::Key;
+pub use radiance::{cluster_radiance, radiance};
 pub use settings::{BakedSides, Settings};
+pub use storage::{Loss, Storage, vectors};
 pub use tessellate::tessellated;
 pub use work::{Watch, bake};

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use umbrage_core::{harmonics::Order, transfer::Kind};
-use umbrage_report::umbrage_bake::{BakedSides, Settings};
+use umbrage_report::umbrage_bake::{BakedSides, Settings, Storage};
 use umbrage_report::{Progress, Source};
 
 /// Bakes how light of the sky reaches every vertex of a scene, past what blocks and reflects it
@@ -18,6 +18,7 @@ Examples:
   umbrage bake contact
   umbrage bake atrium --transfer interreflected --bounces 2 --order 6
   umbrage bake bunny.scene.toml --bake-samples 1024 --cache baked
+  umbrage bake atrium --storage cpca:64:4 --out atrium.npz
 
 The result is kept by the content of meshes, materials and settings, and found again. A bake that is stopped with \
 Ctrl-C is continued by the same command; a file that is damaged is made anew.")]
@@ -45,6 +46,12 @@ pub struct Bake {
     /// Folder that keeps the result
     #[arg(long, value_name = "FOLDER", default_value = "out/baked")]
     cache: PathBuf,
+    /// How coefficients are stored: full, bytes, pca:K, vq:N, cpca:N:K (N clusters of K vectors)
+    #[arg(long, value_name = "WAY", default_value = "full")]
+    storage: Storage,
+    /// Write the transfer for other software, too: .npz for NumPy, .glb with attributes
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
     #[command(flatten)]
     changed: args::Changed,
 }
@@ -67,12 +74,14 @@ impl Bake {
 
     fn bake(&self, source: Source, settings: Settings) -> Result<()> {
         let (bars, stop) = (Bars::default(), stop_at_interrupt()?);
-        let kept = umbrage_report::Bake { source, settings, folder: self.cache.clone() }.run(&bars, &stop)?;
+        let (folder, storage, out) = (self.cache.clone(), self.storage, self.out.clone());
+        let kept = umbrage_report::Bake { source, settings, folder, storage, out }.run(&bars, &stop)?;
         kept.notes.iter().for_each(|note| bars.note(note));
         let points: usize = kept.transfer.meshes.iter().map(|mesh| mesh.point_count()).sum();
         let bytes = kept.transfer.bytes();
         let how = if kept.was_kept { "was there" } else { "is baked" };
-        say::text(&format!("{}: {points} points, {bytes} bytes of coefficients; {how}\n", kept.path.display()))
+        let place = self.out.as_ref().unwrap_or(&kept.path);
+        say::text(&format!("{}: {points} points, {bytes} bytes of coefficients; {how}\n", place.display()))
     }
 
     fn settings(&self) -> Result<Settings> {

@@ -16,6 +16,7 @@ mod info;
 mod list;
 mod render;
 mod say;
+mod sky;
 mod sweep;
 #[cfg(feature = "view")]
 mod view;
@@ -52,6 +53,7 @@ enum Command {
     Bench(bench::Bench),
     Sweep(sweep::Sweep),
     Bake(bake::Bake),
+    Sky(sky::Sky),
     #[cfg(feature = "view")]
     View(view::View),
 }
@@ -80,6 +82,7 @@ pub fn run(registry: &Registry, line: impl IntoIterator<Item = OsString>) -> Exi
         Command::Bench(bench) => bench.run(&context),
         Command::Sweep(sweep) => sweep.run(&context),
         Command::Bake(bake) => bake.run(),
+        Command::Sky(sky) => sky.run(),
         #[cfg(feature = "view")]
         Command::View(view) => view.run(&context),
     };

@@ -11,18 +11,23 @@ mod limits;
 mod lines;
 mod model;
 mod mtl;
+mod npz;
 mod obj;
 pub mod pictures;
 mod placed;
 mod polygon;
+mod probe;
 mod scene_file;
 pub mod stored;
 mod text;
+mod transfer;
 
 pub use error::{Error, Place};
 pub use files::Bytes;
+pub use probe::{Probe, open_probe, read_probe};
 pub use scene_file::{change, changes};
 pub use text::printable;
+pub use transfer::{check_transfer_name, open_transfer, save_transfer};
 
 use files::Files;
 use std::path::Path;

@@ -9,15 +9,13 @@ mod radiance;
 
 pub use radiance::{StoredRadiance, list_radiance};
 
-use crate::error::{self, Error, Place};
+use crate::error::Error;
+use crate::npz::Arrays;
 use crate::pictures::{load_grey, load_mask};
 use glam::DVec3;
-use npyz::{Deserialize, NpyFile, Order};
 use std::collections::BTreeMap;
-use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 use umbrage_core::Image;
-use zip::ZipArchive;
 
 /// The stored pictures of one light of one scene. All are of the same size.
 #[derive(Clone, Debug)]
@@ -124,62 +122,4 @@ pub fn list(dir: &Path) -> Result<BTreeMap<String, Vec<usize>>, Error> {
 
 fn image<T>((width, height): (u32, u32), data: Vec<T>) -> Image<T> {
     Image { width, height, data }
-}
-
-/// The arrays of an `.npz` file.
-struct Arrays<'a> {
-    file: &'a Path,
-    archive: ZipArchive<Cursor<Vec<u8>>>,
-}
-
-impl<'a> Arrays<'a> {
-    fn open(file: &'a Path) -> Result<Self, Error> {
-        let archive = ZipArchive::new(Cursor::new(error::read(file)?))
-            .map_err(|e| Error::new(file, format!("is damaged or cut off: {e}")))?;
-        Ok(Self { file, archive })
-    }
-
-    /// The values of an array of `shape`, rows first.
-    fn values<T: Deserialize>(&mut self, name: &str, shape: &[u64]) -> Result<Vec<T>, Error> {
-        let error = |what: String| Error::new(self.file, what).at(Place::Part(format!("array `{name}`")));
-        let mut bytes = Vec::new();
-        self.archive
-            .by_name(&format!("{name}.npy"))
-            .map_err(|e| error(e.to_string()))?
-            .read_to_end(&mut bytes)
-            .map_err(|e| error(e.to_string()))?;
-        let array = NpyFile::new(bytes.as_slice()).map_err(|e| error(e.to_string()))?;
-        if array.shape() != shape {
-            return Err(error(format!("is of shape {:?} instead of {shape:?}", array.shape())));
-        }
-        if array.order() != Order::C {
-            return Err(error("is stored columns first".to_owned()));
-        }
-        array.into_vec().map_err(|e| error(e.to_string()))
-    }
-
-    /// `channels` values a pixel.
-    fn picture<T: Deserialize>(
-        &mut self,
-        name: &str,
-        (width, height): (u32, u32),
-        channels: u64,
-    ) -> Result<Vec<T>, Error> {
-        let shape = [u64::from(height), u64::from(width), channels];
-        self.values(name, if channels == 1 { &shape[..2] } else { &shape })
-    }
-
-    /// A few values; a single one has no dimension.
-    fn array<T: Deserialize + Copy + Default, const N: usize>(&mut self, name: &str) -> Result<[T; N], Error> {
-        let shape: &[u64] = if N == 1 { &[] } else { &[N as u64] };
-        let mut array = [T::default(); N];
-        for (to, from) in array.iter_mut().zip(self.values(name, shape)?) {
-            *to = from;
-        }
-        Ok(array)
-    }
-
-    fn vector(&mut self, name: &str) -> Result<DVec3, Error> {
-        self.array(name).map(DVec3::from_array)
-    }
 }

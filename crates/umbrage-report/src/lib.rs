@@ -53,6 +53,7 @@ not_in_browsers! {
     pub mod record;
     mod round;
     mod shot;
+    mod sky;
     mod spread;
     mod stage;
     mod status;
@@ -73,6 +74,8 @@ not_in_browsers! {
     pub use output::{Folder, check_file};
     pub use pictures::Pictures;
     pub use record::Report;
+    pub use umbrage_io::Probe;
+    pub use sky::SkyProbe;
     pub use shot::{Aov, Method, Picture, Shot};
     pub use spread::Spread;
     pub use sweep::{

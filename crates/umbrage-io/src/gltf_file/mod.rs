@@ -53,6 +53,11 @@ impl File<'_> {
     }
 }
 
+/// What a binary glTF says, looked over, and the numbers that come with it.
+pub(crate) fn document(path: &Path, bytes: Vec<u8>) -> Result<(gltf::Document, Option<Vec<u8>>), Error> {
+    document::parse(&mut File { path, files: Files::OnDisk, notes: BTreeSet::new() }, bytes)
+}
+
 /// Reads a glTF file and those it refers to.
 pub(crate) fn read(files: Files<'_>, path: &Path) -> Result<Model, Error> {
     let mut file = File { path, files, notes: BTreeSet::new() };
