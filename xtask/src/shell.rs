@@ -15,6 +15,12 @@ pub enum Profile {
     Release,
 }
 
+/// Whether `umbrage list` names it among the techniques, though it is one of the references, which
+/// have no folder and draw nothing on a GPU.
+pub fn is_reference(id: &str) -> bool {
+    ["ray-traced", "path-traced"].contains(&id)
+}
+
 /// The folder of the workspace's `Cargo.toml`.
 pub fn workspace_root() -> Result<PathBuf> {
     let here = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").context("run this as `cargo xtask`")?);

@@ -74,7 +74,7 @@ pub fn run() -> Result<()> {
     let ids = list["techniques"].as_array().context("`umbrage list --json` has no techniques")?;
     let mut seen = BTreeMap::new();
     let mut unknown = Vec::new();
-    for id in ids.iter().filter_map(|t| t["id"].as_str()).filter(|id| *id != "ray-traced") {
+    for id in ids.iter().filter_map(|t| t["id"].as_str()).filter(|id| !shell::is_reference(id)) {
         for scene in SCENES {
             for text in render(&folder, &layer, scene, id)? {
                 match known(&text) {

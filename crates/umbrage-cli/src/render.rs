@@ -6,7 +6,7 @@ use crate::{
     bars::Bars,
     say,
 };
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use clap::Args;
 use std::path::PathBuf;
 use umbrage::{Answer, Registry, nearest};
@@ -34,7 +34,7 @@ faces in use.")]
 pub struct Render {
     /// Built-in scene or file
     scene: String,
-    /// Technique, as in `umbrage list`; `ray-traced` is the reference, `path-traced` that of light
+    /// Technique, as in `umbrage list`, and settings if you like, as in `pcf:kernel=7`; `ray-traced` is the reference, `path-traced` that of light
     /// from the sky
     #[arg(long, value_name = "ID", default_value = "shadow-map")]
     technique: String,
@@ -82,7 +82,8 @@ pub struct Render {
 
 impl Render {
     /// Takes the picture and writes it.
-    pub fn run(self, context: &Context<'_>) -> Result<()> {
+    pub fn run(mut self, context: &Context<'_>) -> Result<()> {
+        self.take_settings()?;
         let aov = Aov::from(self.aov.as_str());
         Picture::check_name(&aov, &self.output)?;
         check_file(&self.output)?;
@@ -126,6 +127,18 @@ impl Render {
         let gpu = if shot.needs_gpu() { Some(self.adapter.gpu()?) } else { None };
         let picture = shot.take(gpu.as_ref(), &Bars::default())?;
         picture.save(&self.output)?;
+        Ok(())
+    }
+
+    /// Settings may stand with the technique as in the lists of other commands; `--set` comes
+    /// after them.
+    fn take_settings(&mut self) -> Result<()> {
+        let text = std::mem::take(&mut self.technique);
+        let mut parts = text.split(':');
+        self.technique = parts.next().unwrap_or_default().into();
+        let pairs: Result<Vec<_>, String> = parts.map(args::pair).collect();
+        let pairs = pairs.map_err(|remedy| anyhow!("`{text}`: {remedy}, after each `:`"))?;
+        self.set.splice(..0, pairs);
         Ok(())
     }
 

@@ -340,8 +340,12 @@ impl Pane {
         };
         let of = (shared.truth_version, visibility.clone());
         let is_of = |scored: &(u64, Arc<Image<f32>>)| scored.0 == of.0 && Arc::ptr_eq(&scored.1, &of.1);
-        if self.scored.as_ref().is_some_and(is_of) || truth.samples == 0 || visibility.size() != truth.visibility.size()
-        {
+        if truth.samples == 0 || visibility.size() != truth.visibility.size() {
+            // What was scored before was another picture.
+            (self.scores, self.scored) = (None, None);
+            return;
+        }
+        if self.scored.as_ref().is_some_and(is_of) {
             return;
         }
         self.scored = Some(of);

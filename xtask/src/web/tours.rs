@@ -17,7 +17,7 @@ const FOLDER: &str = "learn";
 const STEPS: usize = 5;
 /// The scene of tours that name none.
 const SCENE: &str = "primitives";
-/// The reference, which is no technique and has no page.
+/// The reference that a step may show beside a technique.
 const TRUTH: &str = "ray-traced";
 /// Pictures that every technique has.
 const PICTURES: [&str; 3] = ["color", "visibility", "error"];
@@ -46,7 +46,7 @@ pub fn write(out: &Path) -> Result<usize> {
     let listed = shell::output(shell::umbrage(shell::Profile::Dev, &["list", "--json"]))?;
     let listed: Value = serde_json::from_str(&listed).context("`umbrage list --json` is no JSON")?;
     let all = listed["techniques"].as_array().context("`umbrage list --json` names no techniques")?;
-    let techniques: Vec<&Value> = all.iter().filter(|technique| technique["id"] != TRUTH).collect();
+    let techniques: Vec<&Value> = all.iter().filter(|technique| !shell::is_reference(text(technique, "id"))).collect();
     let folder = out.join(FOLDER);
     fs::create_dir_all(&folder).with_context(|| format!("can't make {}", folder.display()))?;
     for technique in &techniques {

@@ -217,6 +217,22 @@ fn the_overlay_of_all_lights_is_another_picture_and_is_measured_beside_the_right
 }
 
 #[test]
+fn settings_may_stand_with_the_technique() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let render = |technique: &str, set: &[&str], name: &str| {
+        let arguments = ["render", "contact", "--technique", technique, "--size", "96x72", "-o", name];
+        output(folder.path(), &[&arguments[..], set].concat());
+        fs::read(folder.path().join(name)).expect("a picture")
+    };
+    let alone = render("pcf:kernel=7:size=256", &[], "a.png");
+    assert_eq!(alone, render("pcf", &["--set", "kernel=7", "--set", "size=256"], "b.png"));
+    assert_eq!(alone, render("pcf:kernel=3:size=256", &["--set", "kernel=7"], "c.png"), "--set counts");
+    let wrong = umbrage(folder.path(), &["render", "contact", "--technique", "pcf:kernel", "-o", "d.png"]);
+    let said = String::from_utf8_lossy(&wrong.stderr).into_owned();
+    assert!(wrong.status.code() == Some(2) && said.contains("NAME=VALUE"), "{said}");
+}
+
+#[test]
 fn views_into_a_technique_are_pictures() {
     let folder = tempfile::tempdir().expect("a folder");
     for view in ["volumes", "count", "overdraw", "silhouettes", "culling"] {

@@ -21,7 +21,7 @@ impl Source<'_> {
         let before = self.text.get(..span.start).unwrap_or(self.text);
         let line = before.matches('\n').count() + 1;
         let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
-        Error::new(self.file, what).at(Place::Line(line, Some(column))).remedy("mend this line of the scene file")
+        Error::new(self.file, what).at(Place::Line(line, Some(column))).remedy("mend this line")
     }
 }
 

@@ -11,7 +11,7 @@ use umbrage_report::RAY_TRACED;
 pub(super) fn show(lab: &mut Lab, ui: &mut egui::Ui) {
     yardstick(lab, ui);
     let Some(pane) = lab.panes.get(lab.face.active) else { return };
-    times(pane, ui);
+    times(pane, lab.gpu.has(wgpu::Features::TIMESTAMP_QUERY), ui);
     sparkline(pane, ui);
     egui::Grid::new("stats").num_columns(2).show(ui, |ui| {
         let mut line = |name: &str, value: String| {
@@ -85,9 +85,10 @@ const FLOOR: &str = "GPU time and preparation over those of a pass that reads de
 const BARE_MINIMUM: &str = "The same over maps as large, without bias and with one comparison";
 
 /// GPU time by pass, as bars.
-fn times(pane: &Pane, ui: &mut egui::Ui) {
+fn times(pane: &Pane, keeps_time: bool, ui: &mut egui::Ui) {
     if pane.times.is_empty() {
-        ui.weak("This adapter keeps no time.");
+        // Times of a frame arrive some frames later, and none where rays are traced.
+        ui.weak(if keeps_time { "No frame has been timed yet." } else { "This adapter keeps no time." });
         return;
     }
     let mut passes: BTreeMap<&str, f64> = BTreeMap::new();
