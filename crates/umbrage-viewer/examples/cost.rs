@@ -18,9 +18,8 @@ fn main() {
     let renderer = WgpuTestRenderer::from_setup(setup(None));
     let options = Options { techniques: vec!["pcss".into()], ..Options::default() };
     let builder = Harness::builder().with_size([1280.0, 800.0]).renderer(renderer);
-    let mut harness = builder.build_eframe(|context| {
-        Lab::new(context, &registry, &options).unwrap_or_else(|error| panic!("{error}"))
-    });
+    let mut harness = builder
+        .build_eframe(|context| Lab::new(context, &registry, &options).unwrap_or_else(|error| panic!("{error}")));
     (0..BEFORE).for_each(|_| harness.step());
     let mut timed = |what: &str| {
         let mut ms: Vec<f64> = (0..TIMED)
