@@ -2,9 +2,9 @@
 //! sky's light makes every point of every surface send out, with shadows and reflections.
 //!
 //! [`bake`] does it on all cores; [`Cache`] keeps the result by the content of meshes, materials
-//! and settings, and continues a bake that was stopped. [`Storage`] keeps vectors in fewer bytes, and
-//! [`radiance`] is what they make of a light. What T holds and what it does not (the
-//! point's own albedo) is on the page `docs/harmonics.md`.
+//! and settings, and continues a bake that was stopped. [`Storage`] keeps vectors in fewer bytes,
+//! and [`radiance`] is what they make of a light. What T holds and what it does not (the point's
+//! own albedo) is on the page `docs/harmonics.md`.
 //!
 //! ```
 //! use umbrage_bake::{Settings, bake};

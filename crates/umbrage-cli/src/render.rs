@@ -34,8 +34,8 @@ faces in use.")]
 pub struct Render {
     /// Built-in scene or file
     scene: String,
-    /// Technique, as in `umbrage list`, and settings if you like, as in `pcf:kernel=7`; `ray-traced` is the reference, `path-traced` that of light
-    /// from the sky
+    /// Technique, as in `umbrage list`, and settings if you like, as in `pcf:kernel=7`;
+    /// `ray-traced` is the reference, `path-traced` that of light from the sky
     #[arg(long, value_name = "ID", default_value = "shadow-map")]
     technique: String,
     /// Parameter of the technique

@@ -19,8 +19,8 @@ pub enum Probe {
     Filament,
     /// JSON for `LightProbe.fromJSON` of three.js: 27 numbers, radiance.
     Three,
-    /// JSON for `SphericalHarmonics.FromArray` of Babylon.js: nine triples, radiance, functions with
-    /// the Condon–Shortley phase.
+    /// JSON for `SphericalHarmonics.FromArray` of Babylon.js: nine triples, radiance, functions
+    /// with the Condon–Shortley phase.
     Babylon,
 }
 

@@ -66,7 +66,8 @@ fn models_as_they_come_give_transfers_or_errors() {
     let output = bake("nan.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n", &[]);
     let text = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.code() == Some(2) && text.contains("nan.obj"), "{text}");
-    // A material that reflects more than it gets: without bounces it is none of the bake's business.
+    // A material that reflects more than it gets: without bounces it is none of the bake's
+    // business.
     fs::write(path.join("m.mtl"), "newmtl m\nKd 1.5 1 1\n").expect("a material");
     let bright = format!("mtllib m.mtl\nusemtl m\n{triangle}f 1 2 3\n");
     assert!(bake("bright.obj", &bright, &[]).status.success());
