@@ -122,6 +122,7 @@ impl Source {
 
     /// A light to measure yardsticks under, which answer with visibility: this one, or the first
     /// where it is the environment.
+    #[cfg(not(target_family = "wasm"))]
     pub(crate) fn yardstick_light(&self, number: usize) -> usize {
         if number == self.scene.lights.len() { 0 } else { number }
     }
