@@ -174,14 +174,15 @@ impl Renderer {
         };
         let mut preparing = Duration::ZERO;
         let is_at_once = self.overlay.is_none() && self.one_target.is_none() && can_shade_at_once(&self.lights);
+        let sky = self.lights.iter().find_map(|lit| match &lit.light.shape {
+            LightShape::Environment(environment) => Some((lit, environment)),
+            _ => None,
+        });
         if !is_at_once {
             passes.owner(Owner::Host("shading"));
-            self.shading.record_start(&mut passes, &self.targets);
+            self.shading.record_start(&mut passes, &self.targets, sky.is_some());
         }
-        let shines = |lit: &&Lit| matches!(lit.light.shape, LightShape::Environment(_));
-        if let Some(lit) = self.lights.iter().find(shines)
-            && let LightShape::Environment(environment) = &lit.light.shape
-        {
+        if let Some((lit, environment)) = sky {
             passes.owner(Owner::Host("sky"));
             let backdrop = self.backdrop.get_or_insert_with(|| Backdrop::new(&self.gpu));
             backdrop.record(&self.gpu, &mut passes, &scene.view(&lit.light), environment, &gbuffer.radiance_view);

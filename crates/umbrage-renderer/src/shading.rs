@@ -56,7 +56,7 @@ pub(crate) struct Shading {
     /// Adds a light to radiance.
     add: wgpu::RenderPipeline,
     /// Leaves what lights are added to.
-    start: (wgpu::RenderPipeline, wgpu::BindGroup),
+    start: (wgpu::RenderPipeline, [wgpu::BindGroup; 2]),
     /// To pictures of a format, by how many lights.
     pictures: Vec<((wgpu::TextureFormat, usize), wgpu::RenderPipeline)>,
     surface_layout: wgpu::BindGroupLayout,
@@ -89,11 +89,14 @@ impl Shading {
         let groups = [&surface_layout, &light_layout];
         let add = pipeline(gpu, &module, groups, ("add", 1), additive(WIDE));
         let start_layout = layout(gpu, "no light", stage, &[UNIFORM]);
-        let input = ShadingInput { ambient, ..ShadingInput::default() };
-        let uniforms = gpu.buffer("no light", &[input], wgpu::BufferUsages::UNIFORM);
+        let groups_of = |ambient| {
+            let input = ShadingInput { ambient, ..ShadingInput::default() };
+            let uniforms = gpu.buffer("no light", &[input], wgpu::BufferUsages::UNIFORM);
+            bind(gpu, "no light", &start_layout, &[uniforms.as_entire_binding()])
+        };
         let start = (
             pipeline(gpu, &module, [&surface_layout, &start_layout], ("start", 0), WIDE.into()),
-            bind(gpu, "no light", &start_layout, &[uniforms.as_entire_binding()]),
+            [ambient, [0.0; 3]].map(groups_of),
         );
         Self { module, add, start, pictures: Vec::new(), surface_layout, light_layout, radiance }
     }
@@ -151,10 +154,12 @@ impl Shading {
     }
 
     /// Leaves in the radiance what surfaces send out without any light.
-    pub fn record_start(&self, passes: &mut Passes<'_>, targets: &Targets) {
+    ///
+    /// Ambient light stands for that of a sky, and is left out where one shines.
+    pub fn record_start(&self, passes: &mut Passes<'_>, targets: &Targets, has_sky: bool) {
         let target = attachment(&targets.gbuffer.radiance_view, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));
         let mut pass = passes.render("start", &[target], None);
-        draw(&mut pass, &self.start.0, targets, &self.start.1);
+        draw(&mut pass, &self.start.0, targets, &self.start.1[usize::from(has_sky)]);
     }
 
     /// Adds the light of `view` within these pixels, by the answer of its technique.
