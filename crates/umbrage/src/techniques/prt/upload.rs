@@ -69,7 +69,7 @@ impl Upload {
 pub(super) fn points_per_part(gpu: &Gpu, vector_len: usize) -> usize {
     let limits = gpu.device.limits();
     let most = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size) as usize;
-    (most / (4 * vector_len.max(1))).min(MOST_GROUPS * BLOCK).max(GRAIN) / GRAIN * GRAIN
+    (most / (4 * vector_len.max(1))).clamp(GRAIN, MOST_GROUPS * BLOCK) / GRAIN * GRAIN
 }
 
 /// The vectors of points of all meshes, `points` of all, in blocks: number by number, each of all
