@@ -38,10 +38,10 @@ impl Info {
 fn notes(source: &Source) -> Vec<String> {
     let is_masked = |i: &Instance| i.casts && source.scene.materials[i.material].alpha_cutoff.is_some();
     let cards = source.scene.instances.iter().filter(|i| is_masked(i)).count();
-    let whole = format!(
-        "{cards} instances cast through an alpha mask: maps cut their shadows out, `volume` casts their triangles whole"
+    let masked = format!(
+        "{cards} instances cast through an alpha mask: `volume`, `wedges` and `light-mask` look them up in maps of their own"
     );
-    source.notes.iter().cloned().chain((cards > 0).then_some(whole)).collect()
+    source.notes.iter().cloned().chain((cards > 0).then_some(masked)).collect()
 }
 
 /// The faults that a mesh can have, as names for JSON and for people.

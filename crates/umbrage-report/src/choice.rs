@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use std::collections::BTreeMap;
-use umbrage::{Gpu, Registry, Settings, Technique, TechniqueInfo, Value};
+use umbrage::{Contact, Gpu, LightPoints, Registry, Settings, Technique, TechniqueInfo, Value};
 use umbrage_core::LightKind;
 
 /// Name of the CPU ray tracer where a technique may be named.
@@ -45,6 +45,18 @@ pub const LIGHT_SAMPLES: &str = "light-samples";
 /// The pseudo-parameter that spreads these points over so many frames, as many in each.
 pub const LIGHT_FRAMES: &str = "light-frames";
 
+/// The pseudo-parameter that adds contact shadows: how long their rays are.
+pub const CONTACT: &str = "contact";
+
+/// The pseudo-parameter that says how thick they take things to be.
+pub const CONTACT_THICKNESS: &str = "contact-thickness";
+
+/// The pseudo-parameter that averages a soft technique over pieces of the light.
+pub const LIGHT_PIECES: &str = "light-pieces";
+
+/// All that stand for no parameter of the technique.
+const PSEUDO: [&str; 5] = [LIGHT_SAMPLES, LIGHT_FRAMES, LIGHT_PIECES, CONTACT, CONTACT_THICKNESS];
+
 /// A technique with checked settings.
 #[derive(Clone, Debug)]
 pub struct Choice {
@@ -56,6 +68,10 @@ pub struct Choice {
     pub light_samples: Option<u32>,
     /// Frames that these are spread over, each with other points.
     pub light_frames: Option<u32>,
+    /// Pieces of the light to average over.
+    pub light_pieces: Option<u32>,
+    /// Contact shadows on top.
+    pub contact: Option<Contact>,
     /// What its user should know: the name that it has now, where it was called by an old one.
     pub note: Option<String>,
     registry: Registry,
@@ -63,8 +79,8 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// The technique `id` of a registry with the parameters `set`, in which [`LIGHT_SAMPLES`] and
-    /// [`LIGHT_FRAMES`] may stand too.
+    /// The technique `id` of a registry with the parameters `set`, in which [`LIGHT_SAMPLES`],
+    /// [`LIGHT_FRAMES`], [`LIGHT_PIECES`], [`CONTACT`] and [`CONTACT_THICKNESS`] may stand too.
     ///
     /// # Errors
     /// Names that are not known, with the nearest one, and values out of range.
@@ -82,15 +98,20 @@ impl Choice {
             return renamed.choice(registry, set);
         }
         let info = registry.find(id)?;
-        let (brute, set): (Vec<_>, Vec<_>) = set.iter().cloned().partition(|(name, _)| name == LIGHT_SAMPLES);
-        let (spread, set): (Vec<_>, Vec<_>) = set.into_iter().partition(|(name, _)| name == LIGHT_FRAMES);
+        let (pseudo, set): (Vec<_>, Vec<_>) = set.iter().cloned().partition(|(name, _)| PSEUDO.contains(&&**name));
+        let last = |of: &str| pseudo.iter().rev().find(|(name, _)| name == of).map(|(_, value)| value.as_str());
         let settings = registry.settings(id, &set)?;
-        let light_samples =
-            brute.last().map(|(_, value)| parse_light_samples(registry, &settings, value)).transpose()?;
-        let light_frames = spread.last().map(|(_, value)| parse_light_frames(light_samples, value)).transpose()?;
+        let samples = |value| parse_light_samples(registry, &settings, value);
+        let light_samples = last(LIGHT_SAMPLES).map(samples).transpose()?;
+        let light_frames = last(LIGHT_FRAMES).map(|value| parse_light_frames(light_samples, value)).transpose()?;
+        let light_pieces = last(LIGHT_PIECES).map(|value| parse_light_pieces(&settings, value)).transpose()?;
+        let contact = parse_contact(&settings, last(CONTACT), last(CONTACT_THICKNESS))?;
+        let others = [LIGHT_FRAMES, LIGHT_PIECES, CONTACT, CONTACT_THICKNESS];
+        let others = others.iter().filter_map(|name| Some((name.to_string(), last(name)?.to_string())));
         let changed = settings.changed().map(|(name, value)| (name.to_string(), value.to_string()));
-        let changed = changed.chain(light_frames.map(|n| (LIGHT_FRAMES.to_string(), n.to_string()))).collect();
-        Ok(Self { info, settings, light_samples, light_frames, note: None, registry: registry.clone(), changed })
+        let changed = changed.chain(others).collect();
+        let registry = registry.clone();
+        Ok(Self { info, settings, light_samples, light_frames, light_pieces, contact, note: None, registry, changed })
     }
 
     /// Reads `id:name=value:name=value`; `set` holds what applies to the technique wherever it is
@@ -194,10 +215,17 @@ impl Choice {
     /// # Errors
     /// What the adapter can't do.
     pub fn make(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
-        Ok(match (self.light_samples, self.light_frames) {
-            (Some(n), Some(frames)) => umbrage::light_samples_over(gpu, &self.settings, n, frames)?,
-            (Some(n), None) => umbrage::light_samples(gpu, &self.settings, n)?,
-            (None, _) => self.settings.make(gpu)?,
+        let (frames, contact) = (self.light_frames, self.contact);
+        if let Some(samples) = self.light_samples {
+            return Ok(LightPoints { samples, frames, contact }.average(gpu, &self.settings)?);
+        }
+        let technique = match self.light_pieces {
+            Some(pieces) => umbrage::light_pieces(gpu, &self.settings, pieces)?,
+            None => self.settings.make(gpu)?,
+        };
+        Ok(match contact {
+            Some(contact) => umbrage::contact_shadows(gpu, technique, contact)?,
+            None => technique,
         })
     }
 }
@@ -217,7 +245,7 @@ impl Renamed {
         let (before, now) = (registry.find(old.technique)?, registry.find(old.to)?);
         let rest = set.iter().filter(|(name, _)| name != old.param).cloned();
         let (own, others): (Vec<_>, Vec<_>) =
-            rest.partition(|(name, _)| name == LIGHT_SAMPLES || now.params().iter().any(|p| p.name == name));
+            rest.partition(|(name, _)| PSEUDO.contains(&&**name) || now.params().iter().any(|p| p.name == name));
         registry.settings(before.id, &others)?;
         let mut choice = Choice::new(registry, now.id, &own)?;
         let name = format!("{}:{}={}", old.technique, old.param, old.value);
@@ -252,6 +280,36 @@ fn parse_light_frames(light_samples: Option<u32>, value: &str) -> Result<u32, Er
     }
     let number = value.parse().ok().filter(|n| (1..=64).contains(n));
     number.ok_or_else(|| Error::Name(format!("{LIGHT_FRAMES} `{value}` is not a number from 1 to 64")))
+}
+
+fn parse_light_pieces(settings: &Settings, value: &str) -> Result<u32, Error> {
+    if settings.is_hard() {
+        let id = settings.info().id;
+        return Err(Error::Name(format!(
+            "`{id}` is a hard technique; write {LIGHT_SAMPLES}=N instead of {LIGHT_PIECES}"
+        )));
+    }
+    let number = value.parse().ok().filter(|n| (1..=16).contains(n));
+    number.ok_or_else(|| Error::Name(format!("{LIGHT_PIECES} `{value}` is not a number from 1 to 16")))
+}
+
+fn parse_contact(settings: &Settings, length: Option<&str>, thickness: Option<&str>) -> Result<Option<Contact>, Error> {
+    let Some(length) = length else {
+        let text = format!("{CONTACT_THICKNESS} is for {CONTACT} shadows; write {CONTACT}=LENGTH before it");
+        return thickness.map_or(Ok(None), |_| Err(Error::Name(text)));
+    };
+    if settings.info().answer() != umbrage::Answer::Visibility {
+        let text = format!("`{}` answers with radiance; leave {CONTACT} out", settings.info().id);
+        return Err(Error::Name(text));
+    }
+    let parsed = |name: &str, text: &str| {
+        text.parse().map_err(|_| Error::Name(format!("{name} `{text}` is no length, such as 0.1 (metres) or 16px")))
+    };
+    let contact = Contact::new(parsed(CONTACT, length)?);
+    let thickness = thickness.map(|text| parsed(CONTACT_THICKNESS, text)).transpose()?;
+    let contact = Contact { thickness: thickness.unwrap_or(contact.thickness), ..contact };
+    contact.check()?;
+    Ok(Some(contact))
 }
 
 #[cfg(test)]
@@ -303,6 +361,26 @@ mod tests {
         assert_eq!(label(both), both);
         assert!(label("shadow-map:light-frames=8").contains("light-samples=N"));
         assert!(label("shadow-map:light-samples=4:light-frames=65").contains("1 to 64"));
+    }
+
+    #[test]
+    fn contact_shadows_are_for_all_that_answer_with_visibility() {
+        let label = |text: &str| self::text(parse(text, &[]));
+        for text in ["pcf:contact=0.1", "none:contact=16px:contact-thickness=0.2"] {
+            assert_eq!(label(text), text);
+        }
+        assert_eq!(label("shadow-map:contact=0.1:light-samples=4"), "shadow-map:contact=0.1:light-samples=4");
+        assert!(label("pcf:contact-thickness=1").contains("contact=LENGTH"));
+        assert!(label("pcf:contact=wide").contains("16px"));
+        assert!(label("pcf:contact=0").contains("over 0"));
+    }
+
+    #[test]
+    fn pieces_of_the_light_are_for_soft_techniques() {
+        let label = |text: &str| self::text(parse(text, &[]));
+        assert_eq!(label("pcss:light-pieces=4"), "pcss:light-pieces=4");
+        assert!(label("shadow-map:light-pieces=4").contains("light-samples=N"));
+        assert!(label("pcss:light-pieces=17").contains("1 to 16"));
     }
 
     #[test]

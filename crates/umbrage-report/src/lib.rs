@@ -15,7 +15,8 @@ mod progress;
 mod source;
 
 pub use choice::{
-    Choice, LIGHT_FRAMES, LIGHT_SAMPLES, PATH_TRACED, PATH_TRACED_SUMMARY, RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced,
+    CONTACT, CONTACT_THICKNESS, Choice, LIGHT_FRAMES, LIGHT_PIECES, LIGHT_SAMPLES, PATH_TRACED, PATH_TRACED_SUMMARY,
+    RAY_TRACED, RAY_TRACED_SUMMARY, RayTraced,
 };
 pub use error::Error;
 pub use given::Given;

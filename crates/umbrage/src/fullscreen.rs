@@ -84,6 +84,16 @@ pub fn additive(format: wgpu::TextureFormat) -> wgpu::ColorTargetState {
     wgpu::ColorTargetState { blend: Some(wgpu::BlendState { color: add, alpha: add }), ..format.into() }
 }
 
+/// A target that keeps the smaller of what is drawn and what is there.
+pub(crate) fn smaller(format: wgpu::TextureFormat) -> wgpu::ColorTargetState {
+    let min = wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Min,
+    };
+    wgpu::ColorTargetState { blend: Some(wgpu::BlendState { color: min, alpha: min }), ..format.into() }
+}
+
 /// How front faces are wound on the screen.
 pub(crate) fn front_face(is_mirrored: bool) -> wgpu::FrontFace {
     if is_mirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw }

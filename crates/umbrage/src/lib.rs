@@ -55,6 +55,7 @@ mod bvh;
 mod casters;
 mod checked;
 mod compute;
+mod contact;
 mod deliver;
 mod denoise;
 pub mod depth_maps;
@@ -63,6 +64,7 @@ pub mod fullscreen;
 mod gpu;
 mod inline;
 mod light_samples;
+mod masked;
 mod moment_maps;
 mod passes;
 mod planar;
@@ -89,12 +91,14 @@ pub use casters::{
     CasterView, Casters, HostCasters, InstanceId, LentIndices, LentInstances, LentMatrices, LentMesh, LentShape,
     LentVertices, MaterialId, MatrixForm, MeshId, Needs, Placement, SeenCasters, SeenSurface, TextureId, Vertices,
 };
+pub use contact::{Contact, Length, contact_shadows};
 pub use deliver::{Coarse, Deliver, Upsample};
 pub use denoise::Denoise;
 pub use error::{Error, nearest};
 pub use gpu::{AdapterSummary, Gpu, PipelineKind, PipelineParts, RenderParts, StageParts};
 pub use inline::{Binding, Followed, Inline, Lent, Resource};
-pub use light_samples::{light_samples, light_samples_over};
+pub use light_samples::{LightPoints, light_pieces, light_samples, light_samples_over};
+pub use masked::{Masked, MaskedBy};
 pub use passes::{Kept, Owner, Pass, PassFragments, PassTime, Passes, Recorder};
 pub use pool::{MapPool, PooledLight};
 pub use prepared::Prepared;
@@ -120,14 +124,16 @@ pub mod wgsl {
     pub use crate::shader::PACK_NORMAL;
 }
 
-/// Every shader of the library: those of the techniques, the adaptor, the denoiser, poses and the
-/// baselines.
+/// Every shader of the library: those of the techniques, the adaptor, the denoiser, contact shadows,
+/// masked casters, poses and the baselines.
 pub fn shaders() -> Vec<Shader> {
     let registry = Registry::default();
     let own: Vec<_> = registry.all().flat_map(|t| t.shaders).collect();
     own.into_iter()
         .chain([&light_samples::SHADER])
         .chain(denoise::SHADERS)
+        .chain(contact::SHADERS)
+        .chain(masked::SHADERS)
         .chain(casters::shaders())
         .chain(baseline::SHADERS)
         .chain(&resolve::SHADERS)

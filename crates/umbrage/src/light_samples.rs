@@ -2,6 +2,8 @@
 //! any hard technique (ZA 1.4 and B.3; GG 9.2.1).
 
 use crate::{
+    answer::Answer,
+    contact::{Contact, contact_shadows},
     denoise::{HISTORY_BYTES, HISTORY_PASS, MOST_FRAMES, MeanOverFrames},
     error::Error,
     fullscreen::{self, FLOATS, Fullscreen, additive, attachment, bind, layout},
@@ -13,20 +15,91 @@ use crate::{
     view::View,
     visibility::VisibilityTarget,
 };
-use umbrage_core::{Light, LightShape, sampling::hard_lights};
+use umbrage_core::sampling::{self, hard_lights};
+use umbrage_core::{Light, LightShape};
 
 /// Shader of the adaptor, for the registry's tests.
 pub const SHADER: Shader = Shader::new("light samples", include_str!("wgsl/light_samples.wgsl"));
 
+/// Which points of a light brute force takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightPoints {
+    /// How many in each frame.
+    pub samples: u32,
+    /// Other ones in each of so many frames; `None` for the same ones in all.
+    pub frames: Option<u32>,
+    /// Contact shadows of each point, before the mean is taken.
+    pub contact: Option<Contact>,
+}
+
+impl LightPoints {
+    /// Wraps the technique of `settings`, so that its visibility is the mean over these points.
+    ///
+    /// With [`LightPoints::frames`] it is that of `samples` × `frames` points after as many frames,
+    /// as long as nothing changes. Where the camera begins to show a surface, and where the light
+    /// or a caster between it and the surface moves, the mean starts anew: no trace of an old
+    /// shadow is left in the next frame. It takes 8 bytes a pixel.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for a technique that is not hard; [`Error::Size`] for 0 samples or
+    /// more than 2048, and 0 frames or more than 64; what making the technique itself gives, and
+    /// [`contact_shadows`].
+    pub fn average(&self, gpu: &Gpu, settings: &Settings) -> Result<Box<dyn Technique>, Error> {
+        let Self { samples, frames, contact } = *self;
+        let inner = checked(gpu, settings, samples)?;
+        let inner = match contact {
+            Some(contact) => contact_shadows(gpu, inner, contact)?,
+            None => inner,
+        };
+        let spread = frames.map(|frames| Spread::new(gpu, frames)).transpose()?;
+        Ok(Box::new(LightSamples { spread, ..LightSamples::new(gpu, inner, samples) }))
+    }
+}
+
 /// Wraps the technique of `settings`, so that its visibility is the mean over `samples` points of
-/// the light.
+/// the light: [`LightPoints`] in one frame.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for a technique that is not hard; [`Error::Size`] for 0 samples or more
-/// than 2048; what making the technique itself gives.
+/// As [`LightPoints::average`].
 pub fn light_samples(gpu: &Gpu, settings: &Settings, samples: u32) -> Result<Box<dyn Technique>, Error> {
-    let inner = checked(gpu, settings, samples)?;
-    Ok(Box::new(LightSamples::new(gpu, inner, samples)))
+    LightPoints { samples, frames: None, contact: None }.average(gpu, settings)
+}
+
+/// The same with `samples` other points of the light in each of `frames` frames.
+///
+/// # Errors
+/// As [`LightPoints::average`].
+pub fn light_samples_over(
+    gpu: &Gpu,
+    settings: &Settings,
+    samples: u32,
+    frames: u32,
+) -> Result<Box<dyn Technique>, Error> {
+    LightPoints { samples, frames: Some(frames), contact: None }.average(gpu, settings)
+}
+
+/// Wraps the technique of `settings`, so that its visibility is the mean over about `pieces` smaller
+/// lights that together are the light, see [`umbrage_core::sampling::light_pieces`]. Where one map
+/// is not enough because casters hide one another from the whole of a large light, they hide one
+/// another from fewer pieces. It costs as much as so many lights.
+///
+/// # Errors
+/// [`Error::Unsupported`] for a hard technique, which [`light_samples`] is for, and for one that
+/// answers with radiance; [`Error::Size`] for 0 pieces or more than 16; what making the technique
+/// itself gives.
+pub fn light_pieces(gpu: &Gpu, settings: &Settings, pieces: u32) -> Result<Box<dyn Technique>, Error> {
+    let refuse = |what: &str| Err(Error::Unsupported { technique: settings.info().id.into(), what: what.into() });
+    if settings.is_hard() {
+        return refuse("pieces of the light, since it is a hard technique; take light samples");
+    }
+    if settings.info().answer() != Answer::Visibility {
+        return refuse("pieces of the light, since it answers with radiance");
+    }
+    if pieces == 0 || pieces > MAX_PIECES {
+        return Err(Error::Size { what: "light pieces".into(), size: pieces.into(), limit: MAX_PIECES.into() });
+    }
+    let inner = settings.make(gpu)?;
+    Ok(Box::new(LightSamples { parts: Parts::Pieces, ..LightSamples::new(gpu, inner, pieces) }))
 }
 
 /// The technique that is to be averaged.
@@ -42,33 +115,25 @@ fn checked(gpu: &Gpu, settings: &Settings, samples: u32) -> Result<Box<dyn Techn
     settings.make(gpu)
 }
 
-/// The same with `samples` other points of the light in each frame: the mean over `frames` frames
-/// is that of `samples` × `frames` points, as long as nothing changes. Where the camera begins to
-/// show a surface, and where the light or a caster between it and the surface moves, the mean
-/// starts anew: no trace of an old shadow is left in the next frame. It takes 8 bytes a pixel.
-///
-/// # Errors
-/// As [`light_samples`]; [`Error::Size`] for 0 frames or more than 64.
-pub fn light_samples_over(
-    gpu: &Gpu,
-    settings: &Settings,
-    samples: u32,
-    frames: u32,
-) -> Result<Box<dyn Technique>, Error> {
-    let inner = checked(gpu, settings, samples)?;
-    if frames == 0 || frames > MOST_FRAMES {
-        return Err(Error::Size { what: "light frames".into(), size: frames.into(), limit: MOST_FRAMES.into() });
-    }
-    let spread = Spread { frames, frame: 0, mean: MeanOverFrames::new(gpu, frames), is_soft: false };
-    Ok(Box::new(LightSamples { spread: Some(spread), ..LightSamples::new(gpu, inner, samples) }))
-}
-
 /// Half floats count whole numbers exactly up to here, and hard visibilities are whole.
 const MAX_SAMPLES: u32 = 2048;
+
+/// Sums of more soft visibilities would lose what half floats have no room for.
+const MAX_PIECES: u32 = 16;
+
+/// What lights are replaced by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Parts {
+    /// Hard lights.
+    Points,
+    /// Smaller soft ones.
+    Pieces,
+}
 
 struct LightSamples {
     gpu: Gpu,
     inner: Box<dyn Technique>,
+    parts: Parts,
     samples: u32,
     lights: Vec<Light>,
     module: wgpu::ShaderModule,
@@ -92,6 +157,13 @@ struct Spread {
 }
 
 impl Spread {
+    fn new(gpu: &Gpu, frames: u32) -> Result<Self, Error> {
+        if frames == 0 || frames > MOST_FRAMES {
+            return Err(Error::Size { what: "light frames".into(), size: frames.into(), limit: MOST_FRAMES.into() });
+        }
+        Ok(Self { frames, frame: 0, mean: MeanOverFrames::new(gpu, frames), is_soft: false })
+    }
+
     /// Of the points of all frames those of the next one: every `frames`-th, in an order in which
     /// frames that follow one another are far apart.
     fn points(&self, all: Vec<LightShape>) -> Vec<LightShape> {
@@ -127,6 +199,7 @@ impl LightSamples {
         Self {
             gpu,
             inner,
+            parts: Parts::Points,
             samples,
             lights: Vec::new(),
             module,
@@ -153,7 +226,11 @@ impl LightSamples {
 impl Technique for LightSamples {
     fn prepare_view(&mut self, _: &Gpu, view: &View<'_>, _: InOrder) -> Result<(), Error> {
         let frames = self.spread.as_ref().map_or(1, |spread| spread.frames);
-        let mut shapes = hard_lights(&view.light.shape, view.textures, (self.samples * frames) as usize);
+        let count = (self.samples * frames) as usize;
+        let mut shapes = match self.parts {
+            Parts::Points => hard_lights(&view.light.shape, view.textures, count),
+            Parts::Pieces => sampling::light_pieces(&view.light.shape, view.textures, count),
+        };
         if let Some(spread) = &mut self.spread {
             spread.is_soft = shapes.len() > 1;
             if spread.is_soft {

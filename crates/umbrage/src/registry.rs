@@ -201,6 +201,18 @@ impl<const WARPED: bool> FilterId<WARPED> {
     }
 }
 
+impl FilterId {
+    /// What finds hard shadows in maps.
+    pub(crate) fn hard() -> Self {
+        Self(built_in::HARD_FILTER)
+    }
+
+    /// What finds the penumbras of a light in maps.
+    pub(crate) fn soft() -> Self {
+        Self(built_in::SOFT_FILTER)
+    }
+}
+
 impl<const WARPED: bool> Default for FilterId<WARPED> {
     fn default() -> Self {
         Self(built_in::DEFAULT_FILTER)

@@ -52,7 +52,7 @@ fn ball(n: usize, position: DVec3, world_from_unit: &DMat3) -> Vec<LightShape> {
 /// dropping one gives these points, and projecting them along any direction drops the second. They
 /// come in pairs of opposite points, so that their mean is the centre, which itself makes an odd
 /// `n` full.
-fn unit_ball(n: usize) -> Vec<DVec3> {
+pub(super) fn unit_ball(n: usize) -> Vec<DVec3> {
     let half = unit_3_sphere(n / 2).map(|q| q.truncate());
     half.flat_map(|q| [q, -q]).chain((n % 2 == 1).then_some(DVec3::ZERO)).collect()
 }

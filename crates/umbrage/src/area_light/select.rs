@@ -8,8 +8,8 @@ use umbrage_core::glam::DVec4;
 use umbrage_core::shadow_hull::{Convex, soft_shadow_hull};
 
 /// Leaves in `found` the numbers, in [`Casters::placed`], of the casters whose soft shadows may be
-/// seen, in order.
-pub(crate) fn casters_in_view(view: &View<'_>, form: &Form, found: &mut Vec<u32>) {
+/// seen, in order; those with an alpha mask only where it is not `leaves_masked`.
+pub(crate) fn casters_in_view(view: &View<'_>, form: &Form, leaves_masked: bool, found: &mut Vec<u32>) {
     found.clear();
     let casters = view.casters;
     if !view.light.casts || casters.casting().is_empty() {
@@ -25,7 +25,8 @@ pub(crate) fn casters_in_view(view: &View<'_>, form: &Form, found: &mut Vec<u32>
     found.retain(|place| {
         let placed = &casters.placed()[*place as usize];
         let is_empty = placed.bounds.is_empty() || placed.sides.is_none();
-        !is_empty && !lights.iter().all(|light| placed.shadows_nothing(light))
+        let is_left = leaves_masked && placed.masked;
+        !is_empty && !is_left && !lights.iter().all(|light| placed.shadows_nothing(light))
     });
 }
 

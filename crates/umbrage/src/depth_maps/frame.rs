@@ -2,6 +2,8 @@
 //! and to the look-up.
 
 use super::layers::Layers;
+use super::setup::Held;
+use crate::casters::Casters;
 use crate::passes::Passes;
 use umbrage_core::light_view::{FitScene, LightView};
 
@@ -30,6 +32,8 @@ pub struct MapFrame {
     pub is_warped: bool,
     /// Depth falls linearly with the distance from the light.
     pub is_linear: bool,
+    /// Which casters the maps hold.
+    pub held: Held,
     /// The depth maps that are looked up, once there are some.
     pub texture: Option<wgpu::Texture>,
     /// By layer a matrix from the casters' space to clip space, where views are fitted on the GPU.
@@ -50,6 +54,13 @@ impl MapFrame {
         const BYTES: u64 = size_of::<[[f32; 4]; 4]>() as u64;
         if let Some(matrices) = &self.matrices {
             passes.encoder().copy_buffer_to_buffer(matrices, u64::from(layer) * BYTES, uniform, 0, BYTES);
+        }
+    }
+
+    /// Leaves out what the maps do not hold.
+    pub(super) fn keep_held(&self, casters: &Casters, places: &mut Vec<u32>) {
+        if self.held == Held::Masked {
+            places.retain(|place| casters.placed()[*place as usize].masked);
         }
     }
 

@@ -24,7 +24,7 @@ pub use layers::{LAYER_NAMES, Layers, MOST_LAYERS};
 pub(crate) use lookup::Lookup;
 pub(crate) use point_maps::PointMaps;
 pub use setup::{
-    Bias, Blend, Cover, Covers, Depth, Faces, Fitting, Kernel, Layout, Map, MapSetup, Softness, Splits, Storage,
+    Bias, Blend, Cover, Covers, Depth, Faces, Fitting, Held, Kernel, Layout, Map, MapSetup, Softness, Splits, Storage,
 };
 pub use stages::Noise;
 pub use stages::Stage;

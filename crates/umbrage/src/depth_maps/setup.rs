@@ -211,6 +211,16 @@ impl Bias {
     }
 }
 
+/// Which casters maps hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Held {
+    /// All.
+    #[default]
+    All,
+    /// Those with an alpha mask: the others are another technique's.
+    Masked,
+}
+
 /// What maps a technique renders: what `cascaded` and the warps hand to their filter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapSetup {
@@ -228,6 +238,8 @@ pub struct MapSetup {
     pub fitting: Fitting,
     /// How soft a filter of one width is.
     pub softness: Softness,
+    /// Which casters they hold.
+    pub held: Held,
 }
 
 impl Map {
@@ -235,7 +247,7 @@ impl Map {
     pub fn fitted(&self, fitting: Fitting, softness: Softness) -> MapSetup {
         let Self { size, faces, cache, .. } = *self;
         let bias = Bias::of(self);
-        MapSetup { size, faces, depth: Depth::Projective, cache, bias, fitting, softness }
+        MapSetup { size, faces, depth: Depth::Projective, cache, bias, fitting, softness, held: Held::All }
     }
 
     /// Maps of a light's own view or views.

@@ -75,7 +75,7 @@ impl MapTechnique {
         let fitter = fit.choice.is_fitted_to_depth().then(|| SplitFitter::new(gpu, &mut input));
         Ok(Self {
             setup: *setup,
-            frame: MapFrame { size, border_texels: reach_texels + 1.0, ..MapFrame::default() },
+            frame: MapFrame { size, border_texels: reach_texels + 1.0, held: setup.held, ..MapFrame::default() },
             fitter,
             draw: Drawer::new(gpu, faces == Faces::Back, faces == Faces::Midpoint, caches(setup, &fit.choice)),
             fit,
@@ -91,7 +91,14 @@ impl MapTechnique {
     fn can_take(&self, new: &MapSetup) -> bool {
         let fixed = |setup: &MapSetup| {
             let views = Views::of(setup);
-            (setup.faces, setup.softness, views.blend(), views.is_fitted_to_depth(), setup.bias.offsets().is_some())
+            (
+                setup.faces,
+                setup.softness,
+                setup.held,
+                views.blend(),
+                views.is_fitted_to_depth(),
+                setup.bias.offsets().is_some(),
+            )
         };
         let any_size = self.stage.as_ref().is_none_or(|stage| stage.takes_any_size());
         fixed(&self.setup) == fixed(new) && (any_size || self.setup.size == new.size)

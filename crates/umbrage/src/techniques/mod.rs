@@ -66,6 +66,10 @@ pub(crate) static OF_RADIANCE: &[&TechniqueInfo] = &[&prt::INFO];
 /// What looks up the maps of splits and warps where nothing is said.
 pub(crate) const DEFAULT_FILTER: &TechniqueInfo = &pcf::INFO;
 
+/// What looks up maps of casters with alpha masks beside hard techniques, and beside soft ones.
+pub(crate) const HARD_FILTER: &TechniqueInfo = &shadow_map::INFO;
+pub(crate) const SOFT_FILTER: &TechniqueInfo = &pcss::INFO;
+
 /// A value of a parameter that has become a technique of its own.
 #[derive(Clone, Copy, Debug)]
 pub struct Renamed {

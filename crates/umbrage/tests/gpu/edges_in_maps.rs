@@ -6,8 +6,8 @@ use umbrage::core::glam::{DAffine3, DMat3, DVec3, Vec4};
 use umbrage::core::light_view::{Cascades, Cover, Focus, Omni, Warp};
 use umbrage::core::{Camera, Light, LightShape, Material, Scene, Texture, primitive};
 use umbrage::depth_maps::{
-    Bias, Blend, Depth, EdgeDraw, EdgePass, EdgeTarget, Faces, Fitting, MapFrame, MapSetup, MapTechnique, Softness,
-    Splits, Stage,
+    Bias, Blend, Depth, EdgeDraw, EdgePass, EdgeTarget, Faces, Fitting, Held, MapFrame, MapSetup, MapTechnique,
+    Softness, Splits, Stage,
 };
 use umbrage::fullscreen::{FLOATS, attachment, bind, layout, target_texture};
 use umbrage::{Casters, Error, Gpu, Passes, Shader, View};
@@ -201,6 +201,7 @@ fn counts(gpu: &Gpu, scene: &Scene, fitting: Fitting, depth: Depth) -> [usize; 3
         bias: Bias::Auto(1.0),
         fitting,
         softness: Softness::Own,
+        held: Held::All,
     };
     let stage = Box::new(Sides::new(gpu));
     let technique = Box::new(MapTechnique::staged(gpu, &setup, &LOOKUP, 4.0, &[], Some(stage)).unwrap());

@@ -3,6 +3,7 @@
 mod cache;
 mod cascaded;
 mod common;
+mod contact;
 mod dark;
 mod denoise;
 mod edges_in_maps;
@@ -25,6 +26,7 @@ mod own_buffers;
 mod own_maps;
 mod pcf_blur;
 mod penumbra;
+mod pieces;
 mod poses;
 mod projective;
 mod rasterisers;

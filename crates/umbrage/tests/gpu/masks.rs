@@ -40,12 +40,44 @@ fn samplers_and_opacities_of_vertices_are_those_of_the_truth() {
         ("nearest", card(Sampling { filter: Filter::Nearest, ..Sampling::default() }, Vec::new())),
         ("fading", card(Sampling::default(), vec![0.2, 1.5, 1.5, 0.2])),
     ] {
-        for (technique, set) in [("shadow-map", "size=2048"), ("pcf", "size=2048"), ("projective", "")] {
+        for (technique, set) in [("shadow-map", "size=2048"), ("pcf", "size=2048"), ("projective", ""), ("volume", "")]
+        {
             let mut renderer = renderer(&gpu, &scene, 0, technique, set, SIZE);
             let right = score_frame(&mut renderer, &scene, 0, SIZE, 1);
             let wrong = score_frame(&mut renderer, &plain, 0, SIZE, 1);
             assert!(right.mae < 0.01, "{technique}, {name}: an error of {}", right.mae);
             assert!(wrong.mae > 2.0 * right.mae, "{technique}, {name}: {} and {}", right.mae, wrong.mae);
+        }
+    }
+}
+
+/// The card under a light, with a block beside it that casts as its triangles do.
+fn card_and_block(shape: LightShape) -> Scene {
+    let mut scene = card(Sampling::default(), Vec::new());
+    let (block, plain) = (scene.add_mesh(primitive::cube()), scene.instances[0].material);
+    let place = |at| DAffine3::from_scale_rotation_translation(DVec3::new(1.0, 0.4, 1.0), DQuat::IDENTITY, at);
+    scene.place(block, plain, place(DVec3::new(1.5, 1.5, 1.0)));
+    scene.place(block, plain, place(DVec3::new(-1.0, 4.0, 0.5)));
+    scene.lights[0] = Light::new(shape);
+    scene
+}
+
+#[test]
+fn techniques_of_edges_and_triangles_leave_masked_casters_to_maps() {
+    let gpu = gpu();
+    let direction = DVec3::new(0.3, -1.0, 0.1).normalize();
+    for (shape, techniques, samples) in [
+        (LightShape::Point { position: DVec3::new(-1.0, 8.0, 0.5) }, vec!["volume", "wedges", "light-mask"], 1),
+        (LightShape::Directional { direction, angle_deg: 2.0 }, vec!["wedges", "light-mask"], 256),
+    ] {
+        let scene = card_and_block(shape);
+        for technique in techniques {
+            let score =
+                |set| score_frame(&mut renderer(&gpu, &scene, 0, technique, set, SIZE), &scene, 0, SIZE, samples);
+            let (maps, whole) = (score(""), score("masked=whole"));
+            println!("{technique}: {:.4}, whole {:.4}", maps.mae, whole.mae);
+            assert!(maps.mae < 0.01, "{technique}: an error of {}", maps.mae);
+            assert!(whole.mae > 3.0 * maps.mae, "{technique}: {} and, whole, {}", maps.mae, whole.mae);
         }
     }
 }

@@ -99,6 +99,7 @@ impl CasterPass {
             self.views.push(MapView::new(light_view, view.casters.origin(), frame.is_linear));
             self.found.clear();
             view.casters.casting().query(&light_view.frustum(), &mut self.found);
+            frame.keep_held(view.casters, &mut self.found);
             list.clear();
             self.numbers.list(view.casters, &self.found, None, None, list);
         }

@@ -106,7 +106,7 @@ impl Drawer {
         self.lists.numbers.clear(gpu, casters, self.layers.len() as u32);
         for light_view in &map_frame.views {
             let layer = &mut self.layers[light_view.layer as usize];
-            layer.prepare(casters, frame, light_view, light, &mut self.lists);
+            layer.prepare(casters, frame, (map_frame, light_view), light, &mut self.lists);
             layer.uniform = MapView::new(light_view, casters.origin(), map_frame.is_linear);
             if let (Work::Over { .. }, Some(textures)) = (layer.work, &mut self.textures) {
                 textures.make_store(gpu);

@@ -3,6 +3,7 @@
 use super::cache::{Frame, LayerCache, Work};
 use super::view::MapView;
 use crate::casters::{Casters, DrawList, InstanceNumbers, Light};
+use crate::depth_maps::frame::MapFrame;
 use crate::depth_maps::texels::near;
 use umbrage_core::{Bounds, light_view::LightView};
 
@@ -65,7 +66,7 @@ impl Layer {
         &mut self,
         casters: &Casters,
         frame: Option<&Frame<'_>>,
-        view: &LightView,
+        (maps, view): (&MapFrame, &LightView),
         mut light: Option<Light>,
         lists: &mut Lists,
     ) {
@@ -81,7 +82,7 @@ impl Layer {
         self.version += 1;
         lists.pierce(casters, view);
         if let (Work::Over { rest }, Some(frame)) = (self.work, frame)
-            && self.prepare_over(frame, view, light.as_ref(), rest, lists)
+            && self.prepare_over(frame, (maps, view), light.as_ref(), rest, lists)
         {
             return;
         }
@@ -90,6 +91,7 @@ impl Layer {
         let pierced = Some(&**pierced).filter(|_| !*backs && view.paraboloid.is_none());
         found.clear();
         casters.casting().query(&view.frustum(), found);
+        maps.keep_held(casters, found);
         numbers.list(casters, found, light.as_ref(), pierced, &mut self.list);
         self.culled = (casters.casting().len() - found.len()) as u32;
         if let Some(frame) = frame {
@@ -102,7 +104,7 @@ impl Layer {
     fn prepare_over(
         &mut self,
         frame: &Frame<'_>,
-        view: &LightView,
+        (maps, view): (&MapFrame, &LightView),
         light: Option<&Light>,
         rest: bool,
         lists: &mut Lists,
@@ -113,10 +115,12 @@ impl Layer {
         let is_seen = |place: &&u32| casters.casting().bounds(**place).is_some_and(|b| frustum.may_see(&b));
         movers.clear();
         movers.extend(frame.movers.moving.iter().filter(is_seen));
+        maps.keep_held(casters, movers);
         if rest {
             found.clear();
             casters.casting().query(&frustum, found);
             found.retain(|place| !frame.movers.has(*place));
+            maps.keep_held(casters, found);
             if found.len() < movers.len() {
                 return false;
             }

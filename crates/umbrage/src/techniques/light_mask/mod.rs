@@ -14,12 +14,13 @@ mod tree;
 use crate::casters::Needs;
 use crate::settings::Configure;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
-use crate::{Error, Gpu, settings};
+use crate::{Error, FilterId, Gpu, Masked, settings};
 use umbrage_core::LightKinds;
 
 settings! {
     /// See the module.
     pub struct LightMask {
+        #[flatten] masked: Masked,
         /// Samples of the light, rounded up to a multiple of 32.
         samples: u32 = 256, in 32..=256,
         /// Radius of point and spot lights, which are hard without one.
@@ -50,7 +51,8 @@ pub const INFO: TechniqueInfo = TechniqueInfo {
 impl Configure for LightMask {
     const INFO: &'static TechniqueInfo = &INFO;
 
-    fn build(&self, _: &Gpu) -> Result<Box<dyn Technique>, Error> {
-        Ok(Box::new(technique::LightMask::new(self.samples, self.radius)))
+    fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
+        let mask = technique::LightMask::new(self.samples, self.radius, self.masked.leaves_out());
+        Ok(self.masked.beside(gpu, Box::new(mask), FilterId::soft()))
     }
 }

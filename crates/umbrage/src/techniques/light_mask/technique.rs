@@ -14,6 +14,8 @@ pub(super) struct LightMask {
     samples: u32,
     /// Of points and spots.
     point_radius: f64,
+    /// Casters with alpha masks are looked up in maps.
+    leaves_masked: bool,
     /// Made when there is something to hide.
     mask: Option<Mask>,
     form: Option<Form>,
@@ -24,8 +26,8 @@ pub(super) struct LightMask {
 }
 
 impl LightMask {
-    pub fn new(samples: u32, point_radius: f64) -> Self {
-        Self { samples, point_radius, mask: None, form: None, chosen: Vec::new(), casting: 0, draws: 0 }
+    pub fn new(samples: u32, point_radius: f64, leaves_masked: bool) -> Self {
+        Self { samples, point_radius, leaves_masked, mask: None, form: None, chosen: Vec::new(), casting: 0, draws: 0 }
     }
 }
 
@@ -38,7 +40,7 @@ impl Technique for LightMask {
         }
         self.casting = view.casters.casting().len() as u32;
         self.form = Some(form);
-        casters_in_view(view, &form, &mut self.chosen);
+        casters_in_view(view, &form, self.leaves_masked, &mut self.chosen);
         if self.chosen.is_empty() {
             return Ok(());
         }

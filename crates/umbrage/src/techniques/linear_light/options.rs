@@ -1,6 +1,6 @@
 //! Settings.
 
-use crate::depth_maps::{Bias, Cover, Covers, Depth, Faces, Layout, MapSetup, Softness};
+use crate::depth_maps::{Bias, Cover, Covers, Depth, Faces, Held, Layout, MapSetup, Softness};
 use crate::{choices, settings};
 
 choices! {
@@ -65,6 +65,7 @@ impl LinearLight {
             bias: Bias::Auto(self.bias),
             fitting: Cover { omni: Layout::Cube, focus: self.focus }.fitting(),
             softness: Softness::Own,
+            held: Held::All,
         }
     }
 }

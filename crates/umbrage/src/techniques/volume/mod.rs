@@ -20,7 +20,8 @@ use crate::settings::Configure;
 pub use crate::silhouettes::Extrude;
 use crate::silhouettes::FIND_SHADER;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
-use crate::{Error, Gpu, Passes, View, VisibilityTarget};
+use crate::masked::WithMasked;
+use crate::{Error, FilterId, Gpu, Passes, View, VisibilityTarget};
 use depth::DEPTH_SHADER;
 pub use options::{Count, Counter, Culls, Parallel, Reach, Stencil, Volume};
 use pipelines::{COUNT_SHADER, RESOLVE_SHADER};
@@ -33,7 +34,7 @@ use views::{VIEW_BASE_SHADER, VIEWS_SHADER};
 pub const INFO: TechniqueInfo = TechniqueInfo {
     id: options::ID,
     title: "Shadow volumes",
-    summary: "Counts the shadow volumes that each point is in: hard shadows exact to the pixel. Ignores alpha masks.",
+    summary: "Counts the shadow volumes that each point is in: hard shadows exact to the pixel.",
     source: "PX 3.2–3.4, 5; SG \"Practical and Robust Stenciled Shadow Volumes\"; ZA 2.4; GG 9",
     family: Family::Volumes,
     filter: None,
@@ -52,7 +53,8 @@ impl Configure for Volume {
     const INFO: &'static TechniqueInfo = &INFO;
 
     fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
-        Ok(Box::new(technique::Volume::new(gpu, self)))
+        let volume = Box::new(technique::Volume::new(gpu, self));
+        Ok(self.masked.beside(gpu, volume, FilterId::hard()))
     }
 }
 
@@ -61,7 +63,8 @@ impl Configure for Volume {
 /// with. The views differ in nothing but the light.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for any other technique than `volume`, and as
+/// [`Error::Unsupported`] for any other technique than `volume`, for casters with alpha masks where
+/// these are not to cast whole, and as
 /// [`Technique::prepare_view`].
 pub fn record_overlay(
     volume: &mut dyn Technique,
@@ -70,12 +73,24 @@ pub fn record_overlay(
     views: &[View<'_>],
     visibility: &VisibilityTarget,
 ) -> Result<(), Error> {
-    let any: &mut dyn Any = volume;
-    let Some(volume) = any.downcast_mut::<technique::Volume>() else {
+    if views.iter().any(|view| view.casters.has_masked()) && (&*volume as &dyn Any).is::<WithMasked>() {
+        let what = "casters with alpha masks in an overlay of all lights at once; set masked=whole".into();
+        return Err(Error::Unsupported { technique: options::ID.into(), what });
+    }
+    let Some(volume) = counted(volume) else {
         let (technique, what) = ("this technique".into(), "the overlay of all lights at once; choose `volume`".into());
         return Err(Error::Unsupported { technique, what });
     };
     let checked = views.iter().map(Checked::new).collect::<Result<Vec<_>, Error>>()?;
     let views: Vec<_> = checked.iter().map(Checked::view).collect();
     volume.overlay(gpu, passes, &views, visibility)
+}
+
+/// Shadow volumes, with or without maps beside them.
+fn counted(technique: &mut dyn Technique) -> Option<&mut technique::Volume> {
+    if (&*technique as &dyn Any).is::<WithMasked>() {
+        let with_masked = (technique as &mut dyn Any).downcast_mut::<WithMasked>()?;
+        return (with_masked.inner_mut() as &mut dyn Any).downcast_mut();
+    }
+    (technique as &mut dyn Any).downcast_mut()
 }

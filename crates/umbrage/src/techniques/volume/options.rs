@@ -1,7 +1,7 @@
 //! The technique's parameters as types.
 
 use crate::silhouettes::{Extrude, Part};
-use crate::{choices, settings};
+use crate::{Masked, choices, settings};
 
 /// What users type.
 pub(super) const ID: &str = "volume";
@@ -98,6 +98,7 @@ impl Count {
 settings! {
     /// Settings of shadow volumes.
     pub struct Volume {
+        #[flatten] masked: Masked,
         /// Where counting the shadows of a point starts: at the eye, with the number of shadows
         /// that the eye is in (`z-pass-eye`); at the eye where a caster cannot shadow it, otherwise
         /// at infinity (`auto`); at infinity (`z-fail`); at the eye, with 0 (`z-pass`, wrong where
@@ -166,6 +167,8 @@ pub(super) struct Options {
     /// 0: no limit.
     pub budget: usize,
     pub unseen: bool,
+    /// Casters with alpha masks are looked up in maps.
+    pub leaves_masked: bool,
 }
 
 impl Options {
@@ -197,6 +200,7 @@ impl Options {
             quads: settings.parallel == Parallel::Quads,
             budget: settings.budget as usize,
             unseen: settings.unseen,
+            leaves_masked: settings.masked.leaves_out(),
         }
     }
 }

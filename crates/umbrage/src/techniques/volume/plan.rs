@@ -27,6 +27,7 @@ impl Fate {
             Self::OutOfLight => [0.2, 0.35, 0.85],
             Self::ShadowsNothing => [0.35, 0.35, 0.38],
             Self::OverBudget => [0.75, 0.25, 0.75],
+            Self::InMaps => [0.2, 0.75, 0.75],
         }
     }
 }

@@ -25,6 +25,8 @@ pub(super) enum Fate {
     ShadowsNothing,
     /// Others were more important.
     OverBudget,
+    /// It has an alpha mask, and is looked up in a map.
+    InMaps,
 }
 
 /// The casters of a frame. Keeps its memory.
@@ -104,7 +106,9 @@ impl Selection {
         let fates = &mut self.fates;
         self.found.retain(|&place| {
             let placed = &casters.placed()[place as usize];
-            let fate = if s.options.cull.view && placed.shadows_nothing(&shadowed) {
+            let fate = if s.options.leaves_masked && placed.masked {
+                Fate::InMaps
+            } else if s.options.cull.view && placed.shadows_nothing(&shadowed) {
                 Fate::ShadowsNothing
             } else if s.options.is_finite()
                 && s.options.cull.light

@@ -272,7 +272,7 @@ impl Inside for Volume {
         let fate = |fate| u64::from(s.count(fate));
         let (edges, triangles) = self.silhouettes.looked_at();
         let kept = s.throws.len() as u64;
-        let elsewhere: u64 = [Fate::OutOfLight, Fate::ShadowsNothing, Fate::OverBudget].map(fate).iter().sum();
+        let elsewhere: u64 = [Fate::OutOfLight, Fate::ShadowsNothing, Fate::OverBudget, Fate::InMaps].map(fate).iter().sum();
         let mut counts = vec![
             ("casters", self.casting.into()),
             ("from the eye", fate(Fate::FromEye)),
@@ -281,6 +281,7 @@ impl Inside for Volume {
             ("out of light", fate(Fate::OutOfLight)),
             ("shadow nothing", fate(Fate::ShadowsNothing)),
             ("over budget", fate(Fate::OverBudget)),
+            ("in maps", fate(Fate::InMaps)),
             ("light caps", s.caps[0].into()),
             ("light caps culled", s.caps_culled[0].into()),
             ("dark caps", s.caps[1].into()),

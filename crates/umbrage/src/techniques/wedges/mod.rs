@@ -27,7 +27,7 @@ use crate::settings::Configure;
 use crate::shader::Shader;
 use crate::silhouettes::FIND_SHADER;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
-use crate::{Error, Gpu};
+use crate::{Error, FilterId, Gpu};
 pub use options::{Batch, Combine, Coverage, Cull, Scale, Wedges};
 use umbrage_core::LightKinds;
 
@@ -55,7 +55,8 @@ impl Configure for Wedges {
     const INFO: &'static TechniqueInfo = &INFO;
 
     fn build(&self, gpu: &Gpu) -> Result<Box<dyn Technique>, Error> {
-        Ok(Box::new(technique::Wedges::new(gpu, self)?))
+        let wedges = Box::new(technique::Wedges::new(gpu, self)?);
+        Ok(self.masked.beside(gpu, wedges, FilterId::soft()))
     }
 }
 

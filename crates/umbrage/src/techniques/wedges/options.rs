@@ -1,6 +1,6 @@
 //! What the user chooses.
 
-use crate::{choices, error::Error, gpu::Gpu, settings};
+use crate::{Masked, choices, error::Error, gpu::Gpu, settings};
 
 /// What users type.
 pub(super) const ID: &str = "wedges";
@@ -8,6 +8,7 @@ pub(super) const ID: &str = "wedges";
 settings! {
     /// Settings of penumbra wedges.
     pub struct Wedges {
+        #[flatten] masked: Masked,
         /// What is drawn at once: all wedges of the light; every caster whose silhouette is one
         /// convex loop, and the others as with `all`; or single wedges, in two halves.
         batch: Batch = Batch::All,
@@ -105,6 +106,8 @@ pub(super) struct Options {
     pub point_radius: f64,
     /// The host leaves surfaces out of the receivers that cast, such as those that face away.
     pub unseen: bool,
+    /// Casters with alpha masks are looked up in maps.
+    pub leaves_masked: bool,
 }
 
 impl Options {
@@ -120,6 +123,7 @@ impl Options {
             table: settings.coverage == Coverage::Table,
             point_radius: settings.radius,
             unseen: settings.unseen,
+            leaves_masked: settings.masked.leaves_out(),
         };
         if new.budget_ms > 0.0 && !gpu.has(wgpu::Features::TIMESTAMP_QUERY) {
             let what = "budget-ms on this adapter, which lacks TIMESTAMP_QUERY; set scale instead".into();

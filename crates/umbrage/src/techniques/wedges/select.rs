@@ -1,6 +1,7 @@
 //! Which casters cast shadows into the view, and from where each is counted.
 
 use super::cuts::{Touched, cut};
+use super::options::Options;
 use super::records::{CHUNK, Cut};
 use crate::area_light::{Form, casters_in_view, may_touch};
 use crate::casters::{MeshEdges, Placed, before_eye};
@@ -51,12 +52,12 @@ struct Scope<'a> {
 
 impl Selection {
     /// Chooses.
-    pub fn choose(&mut self, gpu: &Gpu, view: &View<'_>, form: &Form, unseen: bool) -> Result<(), Error> {
+    pub fn choose(&mut self, gpu: &Gpu, view: &View<'_>, form: &Form, options: &Options) -> Result<(), Error> {
         self.throws.clear();
         self.eye_counts.clear();
         self.caps.clear();
         self.cuts.clear();
-        casters_in_view(view, form, &mut self.found);
+        casters_in_view(view, form, options.leaves_masked, &mut self.found);
         if self.found.is_empty() {
             return Ok(());
         }
@@ -67,7 +68,7 @@ impl Selection {
         let seen = seen.grown(BEHIND * seen.size().length());
         let rounding = view.rounding();
         let around_eye = view.around_eye().grown(rounding);
-        let scope = Scope { view, form, seen, rounding, around_eye, unseen };
+        let scope = Scope { view, form, seen, rounding, around_eye, unseen: options.unseen };
         for i in 0..self.found.len() {
             let place = self.found[i];
             let placed = &view.casters.placed()[place as usize];

@@ -82,7 +82,7 @@ impl Wedges {
             }
             let piece = &mut self.pieces[i];
             piece.term = self.tables.term_of(&piece.form);
-            piece.selection.choose(gpu, view, &piece.form, self.options.unseen)?;
+            piece.selection.choose(gpu, view, &piece.form, &self.options)?;
         }
         Ok(())
     }

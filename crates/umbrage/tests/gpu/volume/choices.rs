@@ -33,7 +33,8 @@ fn masked_cards_cast_whole_also_where_the_eye_looks_through_them() {
         let camera = Camera { eye, target: DVec3::new(0.0, 0.0, -0.4), ..Camera::default() };
         let depth = seen_by.geometry(&camera, size.0, size.1).depth;
         for way in EXACT {
-            let mut renderer = renderer_of(&gpu, &masked(), way, size);
+            let whole = format!("{way}{}masked=whole", if way.is_empty() { "" } else { "," });
+            let mut renderer = renderer_of(&gpu, &masked(), &whole, size);
             renderer.frame(&camera).unwrap();
             let seen = renderer.visibility(0).unwrap();
             let floor = (0..size.0 * size.1).map(|i| (i % size.0, i / size.0)).filter(|p| depth[*p] > 0.0);
