@@ -90,7 +90,10 @@ fn within_unit_ball(n: usize) -> Vec<DVec3> {
         (DVec2::from_angle(golden * i as f64) * (1.0 - z * z).sqrt()).extend(z) * shell
     };
     let points = if n < SHELL { (0..n).map(on_shell).collect() } else { unit_ball(n) };
-    points.into_iter().map(|q| q * Share::of(n).apart).collect()
+    // An odd number has one in the middle, which spreads nothing.
+    let spread = points.iter().map(|q| q.length_squared()).sum::<f64>() / n as f64;
+    let apart = Share::of(n).apart * shell / spread.sqrt();
+    points.into_iter().map(|q| q * apart).collect()
 }
 
 /// About `n` rectangles as square as can be, each with its centre and size, of one with these axes.

@@ -117,7 +117,7 @@ fn the_gap_that_an_offset_leaves_is_closed() {
     let gpu = gpu();
     let toward = DVec3::new(0.0, 1.0, -1.0).normalize();
     let scene = wall(LightShape::Directional { direction: -toward, angle_deg: 0.0 });
-    let settings = find("pcf").unwrap().settings(&pairs("size=512,offset=classic,constant=0.7")).unwrap();
+    let settings = find("pcf").unwrap().settings(&pairs("size=512,offset=classic,constant=1.2")).unwrap();
     let [plain, closed] = [None, Some(Contact::new(Length::Metres(REACH)))].map(|contact| {
         let inner = settings.make(&gpu).unwrap();
         let technique = match contact {
