@@ -16,11 +16,11 @@ mod views;
 
 use crate::casters::Needs;
 use crate::checked::Checked;
+use crate::masked::WithMasked;
 use crate::settings::Configure;
 pub use crate::silhouettes::Extrude;
 use crate::silhouettes::FIND_SHADER;
 use crate::technique::{Family, SettingsOf, Technique, TechniqueInfo, storage_buffers};
-use crate::masked::WithMasked;
 use crate::{Error, FilterId, Gpu, Passes, View, VisibilityTarget};
 use depth::DEPTH_SHADER;
 pub use options::{Count, Counter, Culls, Parallel, Reach, Stencil, Volume};

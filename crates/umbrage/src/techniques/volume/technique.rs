@@ -272,7 +272,8 @@ impl Inside for Volume {
         let fate = |fate| u64::from(s.count(fate));
         let (edges, triangles) = self.silhouettes.looked_at();
         let kept = s.throws.len() as u64;
-        let elsewhere: u64 = [Fate::OutOfLight, Fate::ShadowsNothing, Fate::OverBudget, Fate::InMaps].map(fate).iter().sum();
+        let elsewhere: u64 =
+            [Fate::OutOfLight, Fate::ShadowsNothing, Fate::OverBudget, Fate::InMaps].map(fate).iter().sum();
         let mut counts = vec![
             ("casters", self.casting.into()),
             ("from the eye", fate(Fate::FromEye)),
