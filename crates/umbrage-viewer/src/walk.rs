@@ -27,7 +27,10 @@ pub struct Walk {
 impl Walk {
     /// Before the first technique of the registry.
     pub fn new(registry: &Registry) -> Self {
-        let left = registry.techniques().iter().rev().map(|info| info.id).collect();
+        let mut left: Vec<_> = registry.techniques().iter().rev().map(|info| info.id).collect();
+        // The panel of settings grows with what it shows, and pictures shrink with that: the first
+        // of the registry, which has no settings, comes last.
+        left.rotate_right(1);
         Self { left, now: None, frames: 0, has_begun: false, has_ended: false }
     }
 
