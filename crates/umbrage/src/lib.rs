@@ -124,8 +124,8 @@ pub mod wgsl {
     pub use crate::shader::PACK_NORMAL;
 }
 
-/// Every shader of the library: those of the techniques, the adaptor, the denoiser, contact shadows,
-/// masked casters, poses and the baselines.
+/// Every shader of the library: those of the techniques, the adaptor, the denoiser, contact
+/// shadows, masked casters, poses and the baselines.
 pub fn shaders() -> Vec<Shader> {
     let registry = Registry::default();
     let own: Vec<_> = registry.all().flat_map(|t| t.shaders).collect();

@@ -78,10 +78,10 @@ pub fn light_samples_over(
     LightPoints { samples, frames: Some(frames), contact: None }.average(gpu, settings)
 }
 
-/// Wraps the technique of `settings`, so that its visibility is the mean over about `pieces` smaller
-/// lights that together are the light, see [`umbrage_core::sampling::light_pieces`]. Where one map
-/// is not enough because casters hide one another from the whole of a large light, they hide one
-/// another from fewer pieces. It costs as much as so many lights.
+/// Wraps the technique of `settings`, so that its visibility is the mean over about `pieces`
+/// smaller lights that together are the light, see [`umbrage_core::sampling::light_pieces`]. Where
+/// one map is not enough because casters hide one another from the whole of a large light, they
+/// hide one another from fewer pieces. It costs as much as so many lights.
 ///
 /// # Errors
 /// [`Error::Unsupported`] for a hard technique, which [`light_samples`] is for, and for one that

@@ -77,12 +77,12 @@ impl Share {
     }
 }
 
-/// Fewer pieces of a ball than this lie on a shell, evenly all around.
+/// Fewer pieces of a sphere than this lie on a shell, evenly all around.
 const SHELL: usize = 8;
 
-/// Centres of pieces of the unit ball.
+/// Centres of pieces of the unit sphere.
 fn within_unit_ball(n: usize) -> Vec<DVec3> {
-    // On a shell of this radius points have the ball's second moment, as it is seen.
+    // On a shell of this radius points have the sphere's second moment, as it is seen.
     let shell = 0.75_f64.sqrt();
     let golden = PI * (3.0 - 5.0_f64.sqrt());
     let on_shell = |i: usize| {

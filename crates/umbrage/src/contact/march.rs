@@ -129,7 +129,8 @@ impl March {
         pass.draw(0..3, 0..1);
     }
 
-    /// Bytes that a pixel reads at most: depth at each step and its own, and what it is blended with.
+    /// Bytes that a pixel reads at most: depth at each step and its own, and what it is
+    /// blended with.
     pub fn reads(&self) -> u64 {
         let steps = STEPS[usize::from(self.points > 1)];
         4 * (1 + u64::from(steps) * self.points as u64) + 2
