@@ -150,6 +150,7 @@ impl Renderer {
             )));
         }
         self.tonemap.prepare(&self.gpu, format)?;
+        self.shading.prepare(&self.gpu, format);
         self.draw(camera, target, format)
     }
 
@@ -223,7 +224,6 @@ impl Renderer {
             let views: Vec<_> = self.lights.iter().map(|lit| scene.view(&lit.light)).collect();
             let visibilities: Vec<_> = self.lights.iter().filter_map(|lit| lit.target.visibility()).collect();
             self.shading.join(&self.gpu, &visibilities, &mut self.together);
-            self.shading.prepare(&self.gpu, format, views.len());
             if let Some(together) = &self.together {
                 let light = (&*views, self.ambient);
                 self.shading.record_picture(&mut passes, &self.targets, light, together, (target, format));

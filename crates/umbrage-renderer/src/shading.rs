@@ -5,7 +5,7 @@
 use crate::gbuffer::SURFACE_MODULE;
 use crate::lit::Target;
 use crate::radiance::RadiancePass;
-use crate::targets::{GBuffer, Targets, WIDE};
+use crate::targets::{GBuffer, PICTURE, Targets, WIDE};
 use crate::tonemap::{DISPLAY_MODULE, encodes};
 use umbrage::fullscreen::{self, FLOATS, Fullscreen, UNIFORM, additive, attachment, bind, layout};
 use umbrage::{Eye, Gpu, Passes, Receivers, Shader, View, VisibilityTarget, shader_struct};
@@ -57,8 +57,8 @@ pub(crate) struct Shading {
     add: wgpu::RenderPipeline,
     /// Leaves what lights are added to.
     start: (wgpu::RenderPipeline, [wgpu::BindGroup; 2]),
-    /// To pictures of a format, by how many lights.
-    pictures: Vec<((wgpu::TextureFormat, usize), wgpu::RenderPipeline)>,
+    /// To pictures of a format, by how many lights there are.
+    pictures: Vec<(wgpu::TextureFormat, Vec<wgpu::RenderPipeline>)>,
     surface_layout: wgpu::BindGroupLayout,
     light_layout: wgpu::BindGroupLayout,
     /// For techniques that leave nothing to shade.
@@ -98,7 +98,9 @@ impl Shading {
             pipeline(gpu, &module, [&surface_layout, &start_layout], ("start", 0), WIDE.into()),
             [ambient, [0.0; 3]].map(groups_of),
         );
-        Self { module, add, start, pictures: Vec::new(), surface_layout, light_layout, radiance }
+        let mut shading = Self { module, add, start, pictures: Vec::new(), surface_layout, light_layout, radiance };
+        shading.prepare(gpu, PICTURE);
+        shading
     }
 
     /// What is read of a G-buffer.
@@ -127,12 +129,13 @@ impl Shading {
         }
     }
 
-    /// Makes what pictures of this format need under so many lights, where it is not there yet.
-    pub fn prepare(&mut self, gpu: &Gpu, format: wgpu::TextureFormat, lights: usize) {
-        if self.pictures.iter().all(|(known, _)| *known != (format, lights)) {
+    /// Makes what pictures of this format need, under however many lights, where it is not there
+    /// yet: another light that comes then compiles nothing.
+    pub fn prepare(&mut self, gpu: &Gpu, format: wgpu::TextureFormat) {
+        if self.pictures.iter().all(|(known, _)| *known != format) {
             let groups = [&self.surface_layout, &self.light_layout];
-            let made = pipeline(gpu, &self.module, groups, ("picture", lights), format.into());
-            self.pictures.push(((format, lights), made));
+            let of = |lights| pipeline(gpu, &self.module, groups, ("picture", lights), format.into());
+            self.pictures.push((format, (1..=MOST_LIGHTS).map(of).collect()));
         }
     }
 
@@ -145,8 +148,8 @@ impl Shading {
         together: &Together,
         (target, format): (&wgpu::TextureView, wgpu::TextureFormat),
     ) {
-        let known = self.pictures.iter().find(|(known, _)| *known == (format, views.len()));
-        let Some((_, pipeline)) = known else { return };
+        let known = self.pictures.iter().find(|(known, _)| *known == format);
+        let Some(pipeline) = known.and_then(|(_, by_count)| by_count.get(views.len().checked_sub(1)?)) else { return };
         passes.upload(&together.slot.uniforms, bytemuck::bytes_of(&shading_input(views, ambient)));
         let target = attachment(target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));
         let mut pass = passes.render("picture", &[target], None);
